@@ -1,0 +1,25 @@
+# reeb_library(NAME SOURCES... [DEPENDS targets...]): a static library of one unit with the project's
+# compile rules. Floating-point contraction is off everywhere, since decoded positions are specified
+# to the bit.
+add_library(reeb_rules INTERFACE)
+target_compile_features(reeb_rules INTERFACE cxx_std_20)
+target_compile_options(reeb_rules INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                                            -ffp-contract=off -fno-fast-math)
+if(REEB_WERROR)
+  target_compile_options(reeb_rules INTERFACE -Werror)
+endif()
+if(REEB_SANITIZE)
+  target_compile_options(reeb_rules INTERFACE -fsanitize=${REEB_SANITIZE} -fno-sanitize-recover=all
+                                              -fno-omit-frame-pointer)
+  target_link_options(reeb_rules INTERFACE -fsanitize=${REEB_SANITIZE})
+endif()
+target_include_directories(reeb_rules INTERFACE ${PROJECT_SOURCE_DIR})
+
+function(reeb_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE reeb_rules)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+endfunction()
