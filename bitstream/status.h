@@ -29,7 +29,9 @@ class [[nodiscard]] Status {
 
   static Status corrupt(std::string what) { return {StatusCode::kCorrupt, std::move(what)}; }
   static Status truncated(std::string what) { return {StatusCode::kTruncated, std::move(what)}; }
-  static Status invalid(std::string what) { return {StatusCode::kInvalidArgument, std::move(what)}; }
+  static Status invalid(std::string what) {
+    return {StatusCode::kInvalidArgument, std::move(what)};
+  }
   static Status limit(std::string what) { return {StatusCode::kLimitExceeded, std::move(what)}; }
   static Status io(std::string what) { return {StatusCode::kIo, std::move(what)}; }
 

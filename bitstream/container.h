@@ -1,0 +1,90 @@
+// The file: a sequence header, one reference mesh per shot, groups of frames, metadata, a seek
+// table.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bitstream/chunk.h"
+#include "bitstream/headers.h"
+#include "bitstream/limits.h"
+#include "bitstream/status.h"
+
+namespace reeb {
+
+/// Appends a file to a byte vector, chunk by chunk: `begin`, optionally `metadata`, for each shot
+/// its `reference` and its groups in order of frames, `finish`. A field out of range is an invalid
+/// argument.
+class ContainerWriter {
+ public:
+  /// Appends to `out`, which must be empty and outlive the writer.
+  explicit ContainerWriter(std::vector<uint8_t>& out) : out_(out) {}
+
+  Status begin(const SequenceHeader& header);
+  /// Writes nothing where `entries` is empty.
+  Status metadata(const std::vector<MetadataEntry>& entries);
+  /// `mesh`: bytes that start with a MeshHeader, as `encode_reference` makes them.
+  Status reference(const ReferenceHeader& header, std::span<const uint8_t> mesh);
+  /// The section lengths of `header` are taken from the spans.
+  Status group(const GroupHeader& header, std::span<const uint8_t> motion,
+               std::span<const uint8_t> coefficients, std::span<const uint8_t> basis);
+  Status finish();
+
+ private:
+  void note_chunk(uint64_t offset, uint32_t frame_count);
+
+  std::vector<uint8_t>& out_;
+  SeekTable table_;
+  uint64_t noted_end_ = 0;
+};
+
+struct ReferenceChunk {
+  ReferenceHeader header;
+  MeshHeader mesh_header;         ///< peeked from the front of `mesh`
+  std::span<const uint8_t> mesh;  ///< coded mesh, MeshHeader included
+  uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+};
+
+struct GroupChunk {
+  GroupHeader header;
+  std::span<const uint8_t> motion, coefficients, basis;
+  uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+};
+
+/// A stretch of the file that holds no chunk with a right checksum.
+struct DamagedRange {
+  std::string type;  ///< as read; empty where not even a type could be
+  uint64_t offset = 0, size = 0;
+};
+
+/// Everything a file holds, found without decoding a mesh or a frame. Spans point into the file.
+struct ContainerReader {
+  uint8_t format_version = 0;
+  SequenceHeader header;
+  std::vector<ReferenceChunk> references;  ///< in order of shots
+  std::vector<GroupChunk> groups;          ///< in order of frames; gaps where damaged or cut
+  std::vector<MetadataEntry> metadata;
+  std::vector<DamagedRange> damaged;
+  bool truncated = false;  ///< the file ends early; what was whole before the cut is here
+  /// Bytes of the file by section; the sum is the file's size.
+  std::vector<std::pair<std::string, uint64_t>> sections;
+
+  /// Reads `file`, which must outlive this object. A wrong checksum or a cut is reported in
+  /// `damaged` and `truncated`; kCorrupt where bytes with a right checksum break the specification
+  /// or the sequence header is lost; kUnsupported for a newer version or an unknown critical chunk;
+  /// kLimitExceeded.
+  Status parse(std::span<const uint8_t> file, const Limits& limits);
+
+  /// Reference mesh of a shot, nullptr where it was damaged.
+  const ReferenceChunk* reference(uint32_t shot) const;
+};
+
+/// Text for people: every chunk and every header field as "offset name value", one a line, as far
+/// as the bytes make sense.
+std::string trace(std::span<const uint8_t> file);
+
+}  // namespace reeb

@@ -1,0 +1,64 @@
+#include "bitstream/bytes.h"
+#include "bitstream/container.h"
+#include "bitstream/syntax.h"
+
+namespace reeb {
+
+Status ContainerWriter::begin(const SequenceHeader& header) {
+  if (!out_.empty()) return Status::invalid("container: the output is not empty");
+  std::vector<uint8_t> front;
+  if (Status s = write_header(header, "HEAD", front); !s.ok()) return s;
+  out_.insert(out_.end(), kSignature.begin(), kSignature.end());
+  out_.push_back(kFormatVersion);
+  append_chunk(out_, kHeadChunk, front);
+  return {};
+}
+
+Status ContainerWriter::metadata(const std::vector<MetadataEntry>& entries) {
+  if (entries.empty()) return {};
+  std::vector<uint8_t> front;
+  if (Status s = write_header(Metadata{entries}, "meta", front); !s.ok()) return s;
+  append_chunk(out_, kMetadataChunk, front);
+  return {};
+}
+
+void ContainerWriter::note_chunk(uint64_t offset, uint32_t frame_count) {
+  table_.entries.push_back({offset - noted_end_, out_.size() - offset, frame_count});
+  noted_end_ = out_.size();
+}
+
+Status ContainerWriter::reference(const ReferenceHeader& header, std::span<const uint8_t> mesh) {
+  std::vector<uint8_t> front;
+  if (Status s = write_header(header, "REFM", front); !s.ok()) return s;
+  const uint64_t offset = out_.size();
+  append_chunk(out_, kReferenceChunk, front, std::span(&mesh, 1));
+  note_chunk(offset, 0);
+  return {};
+}
+
+Status ContainerWriter::group(const GroupHeader& header, std::span<const uint8_t> motion,
+                              std::span<const uint8_t> coefficients,
+                              std::span<const uint8_t> basis) {
+  GroupHeader sized = header;
+  sized.motion_bytes = motion.size();
+  sized.coefficient_bytes = coefficients.size();
+  sized.basis_bytes = basis.size();
+  std::vector<uint8_t> front;
+  if (Status s = write_header(sized, "GRUP", front); !s.ok()) return s;
+  const uint64_t offset = out_.size();
+  append_chunk(out_, kGroupChunk, front, std::array{motion, coefficients, basis});
+  note_chunk(offset, header.frame_count);
+  return {};
+}
+
+Status ContainerWriter::finish() {
+  std::vector<uint8_t> front;
+  if (Status s = write_header(table_, "seek", front); !s.ok()) return s;
+  const uint64_t offset = out_.size();
+  append_chunk(out_, kSeekChunk, front);
+  append_u32(out_, static_cast<uint32_t>(out_.size() + kTrailerBytes - offset));
+  out_.insert(out_.end(), kEndMark.begin(), kEndMark.end());
+  return {};
+}
+
+}  // namespace reeb

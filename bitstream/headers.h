@@ -1,0 +1,164 @@
+// Every header of the format, each described once (see `syntax.h`). Field names are those of the
+// specification, `spec/container.md`; adding a field is one member and one line of its description.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace reeb {
+
+inline constexpr uint8_t kFormatVersion = 1;
+inline constexpr uint32_t kMaxGroupFrames = 65536;
+inline constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
+
+/// Chunk `HEAD`.
+struct SequenceHeader {
+  uint32_t total_frames = 1;
+  uint32_t shot_count = 1;  ///< runs of frames with one connectivity
+  double frame_rate = 0;    ///< frames per second; 0 where unknown
+  double start_time = 0;    ///< time of the first frame, in frames
+  uint8_t flags = 0;        ///< reserved
+  bool operator==(const SequenceHeader&) const = default;
+};
+
+template <class V>
+void describe(V& v, SequenceHeader& h) {
+  v.uv("total_frames", h.total_frames, 1, kMaxUint32);
+  v.uv("shot_count", h.shot_count, 1, h.total_frames);
+  v.f64("frame_rate", h.frame_rate, 0, 1e9);
+  v.f64("start_time", h.start_time, -1e15, 1e15);
+  v.flags("flags", h.flags, 0);
+}
+
+/// Front of chunk `REFM`; a MeshHeader and its sections follow.
+struct ReferenceHeader {
+  uint32_t shot = 0;
+  uint32_t first_frame = 0;     ///< of the shot, in the sequence
+  float origin[3] = {0, 0, 0};  ///< position of grid point (0,0,0), world units
+  float grid_step = 1;          ///< world units per grid step
+  uint8_t flags = 0;            ///< reserved
+  bool operator==(const ReferenceHeader&) const = default;
+};
+
+template <class V>
+void describe(V& v, ReferenceHeader& h) {
+  constexpr double kMaxFloat = std::numeric_limits<float>::max();
+  v.uv("shot", h.shot, 0, kMaxUint32);
+  v.uv("first_frame", h.first_frame, 0, kMaxUint32);
+  v.f32("origin_x", h.origin[0], -kMaxFloat, kMaxFloat);
+  v.f32("origin_y", h.origin[1], -kMaxFloat, kMaxFloat);
+  v.f32("origin_z", h.origin[2], -kMaxFloat, kMaxFloat);
+  v.f32("grid_step", h.grid_step, 0, kMaxFloat);
+  v.flags("flags", h.flags, 0);
+}
+
+/// Front of a coded reference mesh; its sections follow in this order and fill the rest.
+struct MeshHeader {
+  static constexpr uint8_t kOrderKept = 1;      ///< vertices come back in the order of the input
+  static constexpr uint8_t kFaceOrderKept = 2;  ///< reserved for lossless connectivity
+  uint32_t vertex_count = 1;
+  uint32_t face_count = 0;
+  uint8_t flags = 0;
+  uint64_t draco_bytes = 0;  ///< Draco's part; 0 where no face is left to it
+  uint64_t rest_bytes = 0;   ///< what Draco does not carry
+  uint64_t order_bytes = 0;  ///< permutation to the order of the input
+  bool operator==(const MeshHeader&) const = default;
+};
+
+template <class V>
+void describe(V& v, MeshHeader& h) {
+  v.uv("vertex_count", h.vertex_count, 1, kMaxUint32);
+  v.uv("face_count", h.face_count, 0, kMaxUint32);
+  v.flags("flags", h.flags, MeshHeader::kOrderKept);
+  v.uv("draco_bytes", h.draco_bytes, 0, kMaxUint32);
+  v.uv("rest_bytes", h.rest_bytes, 0, kMaxUint32);
+  v.uv("order_bytes", h.order_bytes, 0, kMaxUint32);
+}
+
+enum class Profile : uint8_t {
+  kMain = 0,  ///< prediction weights learned while decoding
+  kFast = 1,  ///< prediction weights fixed by the reference
+};
+
+/// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
+struct GroupHeader {
+  uint32_t first_frame = 0;  ///< in the sequence
+  uint32_t frame_count = 1;
+  uint32_t shot = 0;
+  Profile profile = Profile::kMain;
+  uint32_t component_count = 0;  ///< temporal components
+  float quantization_step = 1;   ///< world units
+  uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
+  uint8_t flags = 0;             ///< reserved
+  uint64_t motion_bytes = 0;
+  uint64_t coefficient_bytes = 0;
+  uint64_t basis_bytes = 0;
+  bool operator==(const GroupHeader&) const = default;
+};
+
+template <class V>
+void describe(V& v, GroupHeader& h) {
+  v.uv("first_frame", h.first_frame, 0, kMaxUint32);
+  v.uv("frame_count", h.frame_count, 1, kMaxGroupFrames);
+  v.uv("shot", h.shot, 0, kMaxUint32);
+  v.u8("profile", h.profile, 0, 1);
+  v.uv("component_count", h.component_count, 0, 3 * uint64_t{kMaxGroupFrames});
+  v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
+        std::numeric_limits<float>::max());
+  v.uv("region_count", h.region_count, 0, kMaxUint32);
+  v.flags("flags", h.flags, 0);
+  v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
+  v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
+  v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);
+}
+
+/// Chunk `meta`: free key/value pairs, UTF-8.
+struct MetadataEntry {
+  std::string key;
+  std::string value;
+  bool operator==(const MetadataEntry&) const = default;
+};
+
+template <class V>
+void describe(V& v, MetadataEntry& h) {
+  v.text("key", h.key);
+  v.text("value", h.value);
+}
+
+struct Metadata {
+  std::vector<MetadataEntry> entries;
+};
+
+template <class V>
+void describe(V& v, Metadata& h) {
+  v.list("entry_count", h.entries, 2);
+}
+
+/// One entry of the seek table: where a `REFM` or `GRUP` chunk lies.
+struct SeekEntry {
+  uint64_t gap = 0;   ///< bytes from the end of the chunk of the entry before (or the file's start)
+  uint64_t size = 0;  ///< bytes of the whole chunk, type to checksum
+  uint32_t frame_count = 0;  ///< of the group; 0 for a reference mesh
+  bool operator==(const SeekEntry&) const = default;
+};
+
+template <class V>
+void describe(V& v, SeekEntry& h) {
+  v.uv("gap", h.gap, 0, uint64_t{1} << 62);
+  v.uv("size", h.size, 9, uint64_t{1} << 62);
+  v.uv("frame_count", h.frame_count, 0, kMaxGroupFrames);
+}
+
+/// Chunk `seek`: every reference mesh and group, in file order.
+struct SeekTable {
+  std::vector<SeekEntry> entries;
+};
+
+template <class V>
+void describe(V& v, SeekTable& h) {
+  v.list("entry_count", h.entries, 3);
+}
+
+}  // namespace reeb
