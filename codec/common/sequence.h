@@ -10,8 +10,9 @@
 
 namespace reeb {
 
-/// Polygons over the vertices 0 .. vertex_count-1, in the order of the input. Anything goes: isolated
-/// vertices, degenerate and repeated faces, non-manifold edges; a face has at least one corner.
+/// Polygons over the vertices 0 .. vertex_count-1, in the order of the input. Anything goes:
+/// isolated vertices, degenerate and repeated faces, non-manifold edges; a face has at least one
+/// corner.
 struct Connectivity {
   uint32_t vertex_count = 0;
   std::vector<uint32_t> face_sizes;  ///< corners of each face
@@ -24,7 +25,8 @@ struct Connectivity {
 struct Shot {
   Connectivity connectivity;
   uint32_t frame_count = 0;
-  std::vector<float> positions;  ///< [frame][vertex][xyz], frame_count * vertex_count * 3 finite values
+  std::vector<float>
+      positions;  ///< [frame][vertex][xyz], frame_count * vertex_count * 3 finite values
 
   std::span<const float> frame(uint32_t t) const {
     const size_t n = size_t{connectivity.vertex_count} * 3;

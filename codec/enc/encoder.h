@@ -21,12 +21,13 @@ enum class Target {
 
 struct EncodeOptions {
   Target target = Target::kKg;
-  double target_value = 0.05;   ///< > 0; unit as the target says
-  uint32_t group_length = 0;    ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
-  bool reorder = false;         ///< drop the vertex order of the input (saves bits)
-  bool fast_profile = false;    ///< fixed prediction weights: quicker decoding, more bits
-  int regions = -1;             ///< regions of the affine motion model; -1 = decided by rate-distortion, 0 = none
-  unsigned threads = 0;         ///< 0 = all cores; the bytes do not depend on it
+  double target_value = 0.05;  ///< > 0; unit as the target says
+  uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
+  bool reorder = false;        ///< drop the vertex order of the input (saves bits)
+  bool fast_profile = false;   ///< fixed prediction weights: quicker decoding, more bits
+  int regions =
+      -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, 0 = none
+  unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it
   /// Called with the done part in [0,1]; return false to cancel. May be empty.
   std::function<bool(double)> progress;
 };
@@ -38,15 +39,16 @@ struct EncodeStats {
     double bits = 0;
   };
   uint64_t bytes = 0;
-  double bpvf = 0;             ///< 8 * bytes / sum over shots of (vertices * frames)
-  double kg = 0;               ///< percent
-  double rmse = 0;             ///< per vertex, units of the input
-  double max_error = 0;        ///< largest vertex displacement, units of the input
+  double bpvf = 0;       ///< 8 * bytes / sum over shots of (vertices * frames)
+  double kg = 0;         ///< percent
+  double rmse = 0;       ///< per vertex, units of the input
+  double max_error = 0;  ///< largest vertex displacement, units of the input
   std::vector<Section> sections;
   std::vector<std::string> notes;  ///< e.g. where a new reference starts
 };
 
-/// Encodes `sequence` (at least one frame and one vertex, all values finite). On failure `out` is empty.
+/// Encodes `sequence` (at least one frame and one vertex, all values finite). On failure `out` is
+/// empty.
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
               EncodeStats& stats);
 

@@ -1,0 +1,113 @@
+#include "codec/common/field.h"
+
+#include <algorithm>
+
+#include "codec/common/integer_math.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
+
+uint32_t level_of(uint32_t row, uint32_t rows) {
+  return std::min(7u, log2_q5(std::max(1u, rows / (row + 1))) / 32);
+}
+
+}  // namespace
+
+FieldOptions surface_field_options(bool fast_profile) {
+  FieldOptions options;
+  options.adaptive = !fast_profile;
+  return options;
+}
+
+FieldOptions basis_field_options() {
+  FieldOptions options;
+  options.weights = {.ring_deviation = 0.5, .extra_deviation = 0.35, .sum_to_one = false};
+  options.noise_share = 0.3;
+  options.noise_floor = 0.05;
+  return options;
+}
+
+Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned threads)
+    : graph_(graph),
+      options_(options),
+      estimator_(graph, options.weights, threads),
+      magnitude_(graph.size(), 0),
+      history_(graph.size(), 0),
+      ring_history_(graph.size(), 0),
+      level_(graph.size()) {
+  for (uint32_t r = 0; r < graph.size(); ++r)
+    level_[r] = static_cast<uint8_t>(level_of(r, graph.size()));
+  estimator_.solve();
+}
+
+void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
+  estimator_.observe_reference(points, order);
+  estimator_.solve();
+}
+
+float Field::predict(uint32_t row, const float* plane) const {
+  const float* w = estimator_.weights(row);
+  const auto& neighbour = graph_.rows[row].neighbour;
+  float sum[4] = {0, 0, 0, 0};  // four running sums, so that vector units may take one each
+  for (uint32_t i = 0; i < kMaxNeighbours; i += 4) {
+    for (uint32_t j = 0; j < 4; ++j) sum[j] += w[i + j] * plane[neighbour[i + j]];
+  }
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+Surroundings Field::surroundings(uint32_t row) const {
+  const PredictionGraph::Row& r = graph_.rows[row];
+  uint64_t sum = 0;
+  uint32_t largest = 0;
+  for (uint32_t i = 0; i < r.ring; ++i) {
+    sum += magnitude_[r.neighbour[i]];
+    largest = std::max(largest, magnitude_[r.neighbour[i]]);
+  }
+  const uint32_t step = kStepTable[graph_.step_level[row]];
+  const auto relative = [step](uint64_t x) {
+    return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / step, kMagnitudeCap));
+  };
+  Surroundings s;
+  s.ring_mean = relative(r.ring > 0 ? sum / r.ring : 0);
+  s.ring_max = relative(largest);
+  s.history = relative(history_[row]);
+  s.ring_history = relative(ring_history_[row]);
+  s.running = relative(running_ / 32);
+  s.level = level_[row];
+  s.component = static_cast<uint32_t>(planes_.size() - 1);
+  return s;
+}
+
+void Field::note(uint32_t row, int32_t residual, uint32_t step) {
+  const uint64_t size = static_cast<uint64_t>(residual < 0 ? -int64_t{residual} : residual);
+  const auto magnitude = static_cast<uint32_t>(std::min<uint64_t>(size * step >> 8, kMagnitudeCap));
+  magnitude_[row] = magnitude;
+  running_ += magnitude;
+  running_ -= running_ / 32;
+}
+
+void Field::finish_component(double energy) {
+  const auto k = static_cast<uint32_t>(planes_.size() - 1);
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    history_[r] =
+        static_cast<uint32_t>((uint64_t{history_[r]} * 154 + uint64_t{magnitude_[r]} * 102) >> 8);
+  }
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    uint64_t sum = 0;
+    const uint32_t begin = graph_.link_begin[r];
+    const uint32_t end = graph_.link_begin[r + 1];
+    for (uint32_t i = begin; i < end; ++i) sum += history_[graph_.links[i]];
+    ring_history_[r] = end > begin ? static_cast<uint32_t>(sum / (end - begin)) : 0;
+  }
+  std::fill(magnitude_.begin(), magnitude_.end(), 0);
+  running_ = 0;
+  if (!options_.adaptive) return;
+  const double noise = options_.noise_share * (energy / graph_.size()) + options_.noise_floor;
+  estimator_.observe(planes_.back().data(), noise);
+  if (resolve_after(k)) estimator_.solve();
+}
+
+}  // namespace reeb

@@ -1,0 +1,40 @@
+// Nearest vertices among those that are decoded before a given one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/common/grid.h"
+
+namespace reeb {
+
+/// k-d tree over the vertices of the reference mesh; every node knows the lowest rank (position in
+/// the coding order) below it, so that a query skips what is not decoded yet.
+class EarlierNeighbours {
+ public:
+  /// `rank[v]`: place of vertex v in the coding order. Both must outlive the object.
+  EarlierNeighbours(const GridPoints& points, const std::vector<uint32_t>& rank);
+
+  /// Up to `k` vertices of lower rank nearest to v, nearest first, ties by index.
+  std::vector<uint32_t> find(uint32_t v, uint32_t k) const;
+
+ private:
+  struct Node {
+    uint32_t begin, end;  ///< range of items_
+    uint32_t min_rank;
+    uint32_t left, right;  ///< children; 0 for a leaf
+    int axis;
+    int32_t split;
+  };
+  struct Query;
+
+  uint32_t build(uint32_t begin, uint32_t end);
+  void visit(uint32_t node, Query& query) const;
+
+  const GridPoints& points_;
+  const std::vector<uint32_t>& rank_;
+  std::vector<uint32_t> items_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace reeb

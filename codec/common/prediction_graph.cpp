@@ -1,0 +1,44 @@
+#include "codec/common/prediction_graph.h"
+
+namespace reeb {
+
+namespace {
+
+// 2^(-0.225 / 8) in units of 2^-30, and its powers, each rounded down.
+constexpr uint64_t kStepRatio = 1053012196;
+
+constexpr std::array<uint32_t, kStepLevels> make_step_table() {
+  std::array<uint32_t, kStepLevels> table{};
+  uint64_t power = 1u << 30;
+  for (uint32_t i = 0; i < kStepLevels; ++i) {
+    table[i] = static_cast<uint32_t>(power >> 14);
+    power = power * kStepRatio >> 30;
+  }
+  return table;
+}
+
+}  // namespace
+
+constexpr std::array<uint32_t, kStepLevels> kStepTable = make_step_table();
+
+void link_rings(PredictionGraph& graph) {
+  const uint32_t n = graph.size();
+  graph.link_begin.assign(n + 1, 0);
+  for (uint32_t r = 0; r < n; ++r) {
+    const PredictionGraph::Row& row = graph.rows[r];
+    graph.link_begin[r + 1] += row.ring;
+    for (uint32_t i = 0; i < row.ring; ++i) ++graph.link_begin[row.neighbour[i] + 1];
+  }
+  for (uint32_t r = 0; r < n; ++r) graph.link_begin[r + 1] += graph.link_begin[r];
+  graph.links.resize(graph.link_begin[n]);
+  std::vector<uint32_t> next(graph.link_begin.begin(), graph.link_begin.end() - 1);
+  for (uint32_t r = 0; r < n; ++r) {
+    const PredictionGraph::Row& row = graph.rows[r];
+    for (uint32_t i = 0; i < row.ring; ++i) {
+      graph.links[next[r]++] = row.neighbour[i];
+      graph.links[next[row.neighbour[i]]++] = r;
+    }
+  }
+}
+
+}  // namespace reeb

@@ -1,0 +1,64 @@
+// Who predicts whom: for each row of a field, the earlier rows that its value is predicted from.
+//
+// A field is anything the codec codes row by row for one component after another: temporal
+// coefficients on the vertices of the reference mesh (surface graph), or the temporal basis on its
+// times and axes (temporal graph).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/common/grid.h"
+
+namespace reeb {
+
+inline constexpr uint32_t kMaxNeighbours = 16;
+
+/// Rows are numbered in coding order. All indices of row r are < r, except padding, which is r
+/// itself.
+struct PredictionGraph {
+  struct Row {
+    std::array<uint32_t, kMaxNeighbours> neighbour;
+    std::array<float, kMaxNeighbours>
+        prior;          ///< weights expected before anything is learned; 0 for padding
+    uint8_t count = 0;  ///< neighbours in use
+    uint8_t ring = 0;   ///< the first of them, next to the row; they make the contexts
+  };
+  std::vector<Row> rows;
+  std::vector<uint8_t>
+      step_level;  ///< index into kStepTable: a row that predicts many gets a finer step
+
+  /// Rows joined by a ring in either direction; row r has links[link_begin[r] .. link_begin[r+1]).
+  std::vector<uint32_t> link_begin;
+  std::vector<uint32_t> links;
+
+  uint32_t size() const { return static_cast<uint32_t>(rows.size()); }
+};
+
+/// Step of a row relative to the group's step q, in 1/65536: 65536 * 2^(-0.225 i / 8), i the row's
+/// level, the level being 8 log2 of its prediction mass.
+inline constexpr uint32_t kStepLevels = 192;
+extern const std::array<uint32_t, kStepLevels> kStepTable;
+
+/// Fills `link_begin` and `links` from the rings.
+void link_rings(PredictionGraph& graph);
+
+struct SurfaceGraph {
+  PredictionGraph graph;
+  std::vector<uint32_t> order;  ///< row -> vertex of the reference mesh
+};
+
+/// Coarse-to-fine graph of the reference mesh. Vertices without triangles come last, by nearness in
+/// space.
+SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles);
+
+/// Dyadic hierarchy of `frames` times with three axes each: row r of the graph is (time, axis).
+struct TemporalGraph {
+  PredictionGraph graph;
+  std::vector<uint32_t> order;  ///< row -> time * 3 + axis
+};
+TemporalGraph build_temporal_graph(uint32_t frames);
+
+}  // namespace reeb

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <numeric>
+
+#include "codec/common/collapse.h"
+#include "codec/common/nearest.h"
+#include "codec/common/prediction_graph.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kMaxExtra = 10;   ///< neighbours beyond the ring
+constexpr uint32_t kEnough = 12;     ///< a row with fewer is completed by nearness in space
+constexpr uint32_t kLooseRing = 4;   ///< ring of a vertex that has none on the surface
+constexpr uint32_t kCoincident = 2;  ///< most vertices at the same place that join the ring
+
+/// The 16 bits of x spread to every third bit.
+uint64_t spread_bits(uint32_t x) {
+  uint64_t out = 0;
+  for (int i = 0; i < 16; ++i) out |= uint64_t{x >> i & 1} << (3 * i);
+  return out;
+}
+
+uint64_t morton_code(const int32_t* p) {
+  return spread_bits(static_cast<uint32_t>(p[0])) | spread_bits(static_cast<uint32_t>(p[1])) << 1 |
+         spread_bits(static_cast<uint32_t>(p[2])) << 2;
+}
+
+/// Coarse to fine along a space-filling curve: every 2^j-th of its vertices before the ones in
+/// between.
+void append_by_strides(const GridPoints& points, std::vector<uint32_t> vertices,
+                       std::vector<uint32_t>& order) {
+  std::sort(vertices.begin(), vertices.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(morton_code(points[a]), a) < std::pair(morton_code(points[b]), b);
+  });
+  const size_t n = vertices.size();
+  if (n == 0) return;
+  order.push_back(vertices[0]);
+  for (size_t stride = std::bit_ceil(n); stride >= 1; stride /= 2) {
+    for (size_t i = stride; i < n; i += 2 * stride) order.push_back(vertices[i]);
+  }
+}
+
+/// Neighbours of one vertex as they are gathered, ring first.
+struct Gathered {
+  std::vector<uint32_t> ring;
+  std::vector<uint32_t> extra;
+
+  size_t size() const { return ring.size() + extra.size(); }
+  bool has(uint32_t v) const {
+    return std::find(ring.begin(), ring.end(), v) != ring.end() ||
+           std::find(extra.begin(), extra.end(), v) != extra.end();
+  }
+};
+
+class SurfaceGraphBuilder {
+ public:
+  SurfaceGraphBuilder(const GridPoints& points, std::span<const uint32_t> triangles)
+      : points_(points), boundary_(points.size(), false) {
+    CollapseSequence sequence = collapse_mesh(points, triangles, kMaxExtra);
+    append_by_strides(points, sequence.base, order_);
+    gathered_.resize(points.size());
+    for (size_t i = sequence.collapses.size(); i-- > 0;) {
+      Collapse& c = sequence.collapses[i];
+      order_.push_back(c.vertex);
+      gathered_[c.vertex] = {std::move(c.ring), std::move(c.extra)};
+    }
+    append_by_strides(points, sequence.isolated, order_);
+    rank_.resize(points.size());
+    for (uint32_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = r;
+    mark_boundary(triangles);
+  }
+
+  SurfaceGraph build() {
+    const EarlierNeighbours nearest(points_, rank_);
+    SurfaceGraph out;
+    out.graph.rows.resize(points_.size());
+    for (uint32_t r = 0; r < order_.size(); ++r) {
+      complete(order_[r], nearest);
+      out.graph.rows[r] = make_row(r);
+    }
+    link_rings(out.graph);
+    assign_steps(out.graph);
+    out.order = std::move(order_);
+    return out;
+  }
+
+ private:
+  /// Vertices on an edge of one triangle, or without triangles: others may lie at the same place,
+  /// moving alike.
+  void mark_boundary(std::span<const uint32_t> triangles) {
+    std::vector<uint64_t> edges;
+    edges.reserve(triangles.size());
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      const uint32_t a = triangles[i];
+      const uint32_t b = triangles[i % 3 == 2 ? i - 2 : i + 1];
+      edges.push_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+    }
+    std::sort(edges.begin(), edges.end());
+    for (size_t i = 0; i < edges.size(); ++i) {
+      const bool single = (i == 0 || edges[i] != edges[i - 1]) &&
+                          (i + 1 == edges.size() || edges[i] != edges[i + 1]);
+      if (single) boundary_[edges[i] >> 32] = boundary_[static_cast<uint32_t>(edges[i])] = true;
+    }
+  }
+
+  void complete(uint32_t v, const EarlierNeighbours& nearest) {
+    Gathered& g = gathered_[v];
+    const bool loose = g.ring.empty();
+    if (!loose && !boundary_[v] && g.size() >= kEnough) return;
+    uint32_t coincident = 0;
+    for (const uint32_t u : nearest.find(v, kMaxNeighbours)) {
+      if (g.has(u)) continue;
+      if (loose && g.ring.size() < kLooseRing) {
+        g.ring.push_back(u);
+      } else if (points_.distance2(v, u) == 0 && coincident < kCoincident) {
+        g.ring.insert(g.ring.begin(), u);
+        ++coincident;
+      } else if (g.size() < kMaxNeighbours) {
+        g.extra.push_back(u);
+      }
+    }
+  }
+
+  PredictionGraph::Row make_row(uint32_t rank) const {
+    const uint32_t v = order_[rank];
+    const Gathered& g = gathered_[v];
+    PredictionGraph::Row row;
+    row.neighbour.fill(rank);
+    row.prior.fill(0.0f);
+    row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
+    row.count = static_cast<uint8_t>(std::min<size_t>(g.size(), kMaxNeighbours));
+    uint32_t inverse[kMaxNeighbours] = {};
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const uint32_t u = i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()];
+      row.neighbour[i] = rank_[u];
+      if (i < row.ring) sum += inverse[i] = inverse_distance(v, u);
+    }
+    for (uint32_t i = 0; i < row.ring; ++i) {
+      row.prior[i] = static_cast<float>((uint64_t{inverse[i]} << 16) / sum) / 65536.0f;
+    }
+    return row;
+  }
+
+  /// 2^22 / distance in 1/16 grid units, the distance at least a quarter of the grid.
+  uint32_t inverse_distance(uint32_t v, uint32_t u) const {
+    return (1u << 22) / std::max(4u, points_.distance_q4(v, u));
+  }
+
+  /// Prediction mass M (1 plus the prior-weighted mass of what the row predicts) in 1/256, then
+  /// levels.
+  void assign_steps(PredictionGraph& graph) const {
+    std::vector<uint64_t> mass(graph.size(), 256);
+    graph.step_level.resize(graph.size());
+    for (uint32_t r = graph.size(); r-- > 0;) {
+      const PredictionGraph::Row& row = graph.rows[r];
+      for (uint32_t i = 0; i < row.ring; ++i) {
+        const auto share = static_cast<uint64_t>(row.prior[i] * 65536.0f);
+        mass[row.neighbour[i]] += mass[r] * share >> 16;
+      }
+      const uint32_t level = (log2_q5(mass[r]) - 8 * 32) / 4;
+      graph.step_level[r] = static_cast<uint8_t>(std::min(level, kStepLevels - 1));
+    }
+  }
+
+  const GridPoints& points_;
+  std::vector<bool> boundary_;
+  std::vector<uint32_t> order_;
+  std::vector<uint32_t> rank_;
+  std::vector<Gathered> gathered_;
+};
+
+}  // namespace
+
+SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles) {
+  if (points.size() == 0) return {};
+  return SurfaceGraphBuilder(points, triangles).build();
+}
+
+}  // namespace reeb

@@ -1,0 +1,81 @@
+#include "codec/common/synthesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kBlock =
+    512;  ///< rows summed at once; three such blocks stay in the first-level cache
+
+/// sum[i] += scale * plane[i]
+void accumulate(float* sum, const float* plane, float scale, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) sum[i] += scale * plane[i];
+}
+
+}  // namespace
+
+GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes,
+                               const std::vector<std::vector<float>>& basis,
+                               std::vector<double> mean)
+    : planes_(std::move(planes)), mean_(std::move(mean)) {
+  const size_t k_count = planes_.size();
+  basis_.resize(mean_.size() * k_count);
+  for (size_t k = 0; k < k_count; ++k) {
+    for (size_t row = 0; row < mean_.size(); ++row) basis_[row * k_count + k] = basis[k][row];
+  }
+}
+
+void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* xyz,
+                           size_t stride) const {
+  const auto rows = static_cast<uint32_t>(output.size());
+  for (uint32_t begin = 0; begin < rows; begin += kBlock) {
+    const uint32_t count = std::min(kBlock, rows - begin);
+    float sum[3][kBlock] = {};
+    for (size_t k = 0; k < planes_.size(); ++k) {
+      for (uint32_t a = 0; a < 3; ++a) {
+        accumulate(sum[a], planes_[k].data() + begin,
+                   basis_[(size_t{t} * 3 + a) * planes_.size() + k], count);
+      }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      float* p = xyz + output[begin + i] * stride;
+      for (uint32_t a = 0; a < 3; ++a) {
+        p[a] = static_cast<float>(mean_[size_t{t} * 3 + a] + static_cast<double>(sum[a][i]));
+      }
+    }
+  }
+}
+
+double plane_norm(const std::vector<float>& plane) {
+  double sum = 0;
+  for (const float x : plane) sum += static_cast<double>(x) * static_cast<double>(x);
+  return std::sqrt(sum);
+}
+
+GroupSynthesis synthesize(uint32_t vertices, std::vector<std::vector<float>> planes,
+                          const Field& basis_field, const std::vector<uint32_t>& basis_order,
+                          double q, const float origin[3]) {
+  const size_t rows = basis_order.size();
+  std::vector<double> mean(rows);
+  const double mean_scale = q / std::sqrt(static_cast<double>(vertices));
+  for (size_t r = 0; r < rows; ++r) {
+    const double moved = static_cast<double>(basis_field.plane(0)[r]) * mean_scale;
+    mean[basis_order[r]] = static_cast<double>(origin[basis_order[r] % 3]) + moved;
+  }
+  std::vector<std::vector<float>> basis(planes.size(), std::vector<float>(rows));
+  for (size_t k = 0; k < planes.size(); ++k) {
+    const double norm = plane_norm(planes[k]);
+    const double scale = norm > 0 ? q / norm : 0;
+    const std::vector<float>& coded = basis_field.plane(static_cast<uint32_t>(k) + 1);
+    for (size_t r = 0; r < rows; ++r) {
+      basis[k][basis_order[r]] = static_cast<float>(static_cast<double>(coded[r]) * scale);
+    }
+  }
+  return GroupSynthesis(std::move(planes), basis, std::move(mean));
+}
+
+}  // namespace reeb

@@ -1,0 +1,49 @@
+// From decoded components to positions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/common/field.h"
+
+namespace reeb {
+
+/// A decoded group, ready to give any of its frames.
+class GroupSynthesis {
+ public:
+  GroupSynthesis() = default;
+  /// `planes`: K components of V values; `basis`: K components of 3F values, [time][axis], world
+  /// units per unit of the plane; `mean`: 3F values, the mean trajectory in world units.
+  GroupSynthesis(std::vector<std::vector<float>> planes,
+                 const std::vector<std::vector<float>>& basis, std::vector<double> mean);
+
+  uint32_t frame_count() const { return static_cast<uint32_t>(mean_.size() / 3); }
+  /// Mean trajectory and the K basis values of row = time * 3 + axis, world units.
+  double mean(size_t row) const { return mean_[row]; }
+  const float* basis(size_t row) const { return &basis_[row * planes_.size()]; }
+
+  /// x(v, t) = round(mean(t) + sum_k basis_k(t) plane_k(v)): the sum in binary32 in the order of k,
+  /// the last addition in binary64, rounded once to binary32. Row r is written to xyz + output[r] *
+  /// stride.
+  void frame(uint32_t t, std::span<const uint32_t> output, float* xyz, size_t stride) const;
+
+ private:
+  std::vector<std::vector<float>> planes_;
+  std::vector<float> basis_;  ///< [time][axis][component]
+  std::vector<double> mean_;
+};
+
+/// Euclidean norm of a plane, summed in binary64 in the order of its rows.
+double plane_norm(const std::vector<float>& plane);
+
+/// Joins the two decoded fields of a group. The coefficient field holds K planes of V values in
+/// units of the quantization step q; the basis field 1 + K planes of 3F values in the order of the
+/// temporal graph: the mean trajectory times sqrt(V), then each basis vector times the norm of its
+/// plane, both in units of q. `origin` is added to the mean trajectory.
+GroupSynthesis synthesize(uint32_t vertices, std::vector<std::vector<float>> planes,
+                          const Field& basis_field, const std::vector<uint32_t>& basis_order,
+                          double q, const float origin[3]);
+
+}  // namespace reeb

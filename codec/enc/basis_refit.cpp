@@ -1,0 +1,56 @@
+#include "codec/enc/basis_refit.h"
+
+#include <algorithm>
+
+namespace reeb {
+
+namespace {
+constexpr Eigen::Index kRowBlock = 512;
+constexpr double kRidge = 0.5;  ///< in units of q^2
+constexpr double kRelativeRidge =
+    1e-9;  ///< of the mean diagonal, against singular normal equations
+}  // namespace
+
+BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transform,
+                       const std::vector<std::vector<float>>& planes, double q)
+    : signal_(signal) {
+  const auto k = static_cast<Eigen::Index>(planes.size());
+  const Eigen::Index rows = signal.trajectories.rows();
+  gram_.setZero(k, k);
+  projection_.setZero(k, signal.trajectories.cols());
+  sum_.setZero(k);
+  for (Eigen::Index begin = 0; begin < rows && k > 0; begin += kRowBlock) {
+    const Eigen::Index count = std::min(kRowBlock, rows - begin);
+    Eigen::MatrixXd block(count, k);
+    for (Eigen::Index c = 0; c < k; ++c) {
+      block.col(c) =
+          Eigen::Map<const Eigen::VectorXf>(planes[c].data() + begin, count).cast<double>();
+    }
+    gram_.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
+    projection_.noalias() +=
+        block.transpose() * signal.trajectories.middleRows(begin, count).cast<double>();
+    sum_ += block.colwise().sum().transpose();
+  }
+  if (k == 0) return;
+  gram_ = gram_.selfadjointView<Eigen::Lower>();
+  const double ridge = kRidge + kRelativeRidge * gram_.trace() / static_cast<double>(k);
+  const Eigen::MatrixXd normal = gram_ + ridge * Eigen::MatrixXd::Identity(k, k);
+  const Eigen::MatrixXd right = projection_ / q + kRidge * transform.leftCols(k).transpose();
+  basis_ = normal.llt().solve(right).transpose();
+}
+
+double BasisRefit::squared_error(const GroupSynthesis& synthesis, const float origin[3]) const {
+  double error = signal_.energy;
+  for (Eigen::Index row = 0; row < signal_.mean.size(); ++row) {
+    const auto r = static_cast<size_t>(row);
+    const double offset =
+        synthesis.mean(r) - static_cast<double>(origin[r % 3]) - signal_.mean[row];
+    const Eigen::VectorXd u =
+        Eigen::Map<const Eigen::VectorXf>(synthesis.basis(r), gram_.rows()).cast<double>();
+    error += u.dot(gram_ * u) - 2 * u.dot(projection_.col(row));
+    error += offset * (offset * static_cast<double>(signal_.vertices()) + 2 * u.dot(sum_));
+  }
+  return std::max(0.0, error);
+}
+
+}  // namespace reeb

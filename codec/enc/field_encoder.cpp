@@ -1,0 +1,68 @@
+#include "codec/enc/field_encoder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reeb {
+
+namespace {
+
+/// Bits of a magnitude up to kBins, escape not included.
+double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
+  double bits = magnitude > 0 ? 1 : 0;
+  for (uint32_t i = 0; i < magnitude; ++i) bits += cost_of(bins[i].p1);
+  if (magnitude < MagnitudeModel::kBins)
+    bits += cost_of(static_cast<Probability>(65536 - bins[magnitude].p1));
+  return bits;
+}
+
+}  // namespace
+
+FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double lambda,
+                           double mass_exponent)
+    : field_(field), lambda_(lambda) {
+  for (const uint8_t level : graph.step_level)
+    importance_.push_back(std::exp2(mass_exponent * level / 8.0));
+}
+
+int32_t FieldEncoder::decide(double residual, double step, double importance,
+                             MagnitudeModel::Bins& bins) const {
+  const double size = std::min(std::abs(residual) / step, double{MagnitudeModel::kMaxMagnitude});
+  const auto nearest = static_cast<uint32_t>(size + 0.5);
+  uint32_t best = nearest;
+  if (nearest > 0 && nearest <= MagnitudeModel::kBins) {
+    double best_cost = 1e300;
+    const auto consider = [&](uint32_t n) {
+      const double error = (size - n) * step;
+      const double cost = error * error * importance + lambda_ * magnitude_bits(bins, n);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = n;
+      }
+    };
+    consider(nearest);
+    consider(nearest - 1);
+    if (nearest > 1) consider(0);
+  }
+  return residual < 0 ? -static_cast<int32_t>(best) : static_cast<int32_t>(best);
+}
+
+double FieldEncoder::code_component(const float* target, double scale) {
+  const auto quantize = [&](uint32_t row, float prediction, uint32_t step,
+                            MagnitudeModel::Bins& bins) {
+    const double residual =
+        static_cast<double>(target[row]) * scale - static_cast<double>(prediction);
+    const int32_t n = decide(residual, step / 65536.0, importance_[row], bins);
+    return field_.model().code(recorder_, bins, n);
+  };
+  field_.code_component(quantize);
+  const std::vector<float>& plane = field_.plane(field_.component_count() - 1);
+  double error = 0;
+  for (size_t row = 0; row < plane.size(); ++row) {
+    const double d = static_cast<double>(plane[row]) - static_cast<double>(target[row]) * scale;
+    error += d * d;
+  }
+  return error;
+}
+
+}  // namespace reeb

@@ -1,0 +1,31 @@
+// Temporal Karhunen-Loeve basis of a group: the principal components of its trajectories.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+
+#include "codec/enc/group_signal.h"
+
+namespace reeb {
+
+class KarhunenLoeve {
+ public:
+  /// `signal` must outlive the object.
+  explicit KarhunenLoeve(const GroupSignal& signal);
+
+  /// 3F x K orthonormal columns by falling variance; K <= min(V, 3F) leaves out what is numerically
+  /// nothing.
+  const Eigen::MatrixXd& basis() const { return basis_; }
+  uint32_t size() const { return static_cast<uint32_t>(basis_.cols()); }
+
+  /// Coefficients of component k: V values, world units. Computed when first asked for.
+  const float* coefficients(uint32_t k);
+
+ private:
+  const GroupSignal& signal_;
+  Eigen::MatrixXd basis_;
+  Eigen::MatrixXf coefficients_;
+  Eigen::Index computed_ = 0;
+};
+
+}  // namespace reeb
