@@ -1,12 +1,40 @@
 #include "segmentation/regions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include "segmentation/nearest.h"
 #include "segmentation/union_find.h"
 
 namespace reeb::segmentation {
+namespace {
+
+bool finite_at(std::span<const float> positions, uint32_t v) {
+  return std::isfinite(positions[3 * v]) && std::isfinite(positions[3 * v + 1]) &&
+         std::isfinite(positions[3 * v + 2]);
+}
+
+Point point_at(std::span<const float> positions, uint32_t v) {
+  return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+}
+
+std::vector<Point> centroids(std::span<const float> positions, const std::vector<uint32_t>& labels,
+                             uint32_t count) {
+  std::vector<Point> sum(count, Point::Zero());
+  std::vector<double> members(count, 0.0);
+  for (uint32_t v = 0; v < labels.size(); ++v) {
+    if (!finite_at(positions, v)) continue;
+    sum[labels[v]] += point_at(positions, v);
+    ++members[labels[v]];
+  }
+  for (uint32_t r = 0; r < count; ++r) sum[r] /= std::max(members[r], 1.0);
+  return sum;
+}
+
+}  // namespace
 
 void grow_regions(const Surface& surface, std::vector<uint32_t>& labels) {
   std::vector<uint32_t> front;
@@ -81,6 +109,62 @@ std::vector<RegionLink> border_links(const Surface& surface, const std::vector<u
   std::vector<RegionLink> links;
   for (const auto& [pair, length] : borders) links.push_back({pair.first, pair.second, length, 0});
   return links;
+}
+
+std::vector<RegionLink> gap_links(std::span<const float> positions,
+                                  const std::vector<uint32_t>& labels,
+                                  const std::vector<RegionLink>& links) {
+  const uint32_t count = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
+  const std::vector<Point> centre = centroids(positions, labels, count);
+  UnionFind joined(count);
+  for (const RegionLink& link : links) joined.unite(link.a, link.b);
+  // Prim's algorithm; between regions that are joined already the way is free.
+  std::vector<double> gap(count, std::numeric_limits<double>::infinity());
+  std::vector<uint32_t> from(count, 0);
+  std::vector<bool> done(count, false);
+  std::vector<RegionLink> gaps;
+  uint32_t next = 0;
+  for (uint32_t step = 0; step < count; ++step) {
+    done[next] = true;
+    if (step > 0 && joined.unite(from[next], next)) {
+      const auto [a, b] = std::minmax(from[next], next);
+      gaps.push_back({a, b, 0, gap[next]});
+    }
+    uint32_t nearest = kNone;
+    for (uint32_t r = 0; r < count; ++r) {
+      if (done[r]) continue;
+      const double d = joined.find(r) == joined.find(next) ? 0 : (centre[r] - centre[next]).norm();
+      if (d < gap[r]) {
+        gap[r] = d;
+        from[r] = next;
+      }
+      if (nearest == kNone || gap[r] < gap[nearest]) nearest = r;
+    }
+    next = nearest;
+  }
+  return gaps;
+}
+
+uint32_t label_by_nearest(std::span<const float> positions, std::vector<uint32_t>& labels,
+                          std::vector<double>& values) {
+  std::vector<uint32_t> labelled;
+  std::vector<Point> points;
+  for (uint32_t v = 0; v < labels.size(); ++v) {
+    if (labels[v] == kNone) continue;
+    labelled.push_back(v);
+    points.push_back(point_at(positions, v));
+  }
+  const uint32_t rest = static_cast<uint32_t>(labels.size() - labelled.size());
+  if (rest == 0) return 0;
+  const NearestPoint nearest(std::move(points));
+  for (uint32_t v = 0; v < labels.size(); ++v) {
+    if (labels[v] != kNone) continue;
+    const bool finite = finite_at(positions, v);
+    const uint32_t source = labelled[finite ? nearest.find(point_at(positions, v)) : 0];
+    labels[v] = labels[source];
+    values[v] = values[source];
+  }
+  return rest;
 }
 
 }  // namespace reeb::segmentation

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <numeric>
 #include <utility>
 
-#include "segmentation/nearest.h"
 #include "segmentation/piece.h"
 #include "segmentation/regions.h"
 #include "segmentation/surface.h"
@@ -115,15 +113,6 @@ class Segmenter {
     segmented_.push_back(piece);
   }
 
-  bool finite_at(uint32_t v) const {
-    return std::isfinite(positions_[3 * v]) && std::isfinite(positions_[3 * v + 1]) &&
-           std::isfinite(positions_[3 * v + 2]);
-  }
-
-  Point point(uint32_t v) const {
-    return {positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]};
-  }
-
   // Welded doubles take over their vertex; pieces beyond the limit and vertices without a triangle
   // take the region of the nearest vertex that has one.
   void label_rest() {
@@ -135,22 +124,9 @@ class Segmenter {
       result_.scalar[v] = result_.scalar[low];
     }
     if (result_.region_count == 0) return label_all();
-    std::vector<uint32_t> labelled;
-    std::vector<Point> points;
-    for (uint32_t v = 0; v < size(); ++v) {
-      if (result_.labels[v] == kNone) continue;
-      labelled.push_back(v);
-      points.push_back(point(v));
-    }
-    const uint32_t rest = static_cast<uint32_t>(size() - labelled.size());
-    if (rest == 0) return;
-    warn(std::to_string(rest) + " vertices of no segmented piece took the nearest region");
-    const NearestPoint nearest(std::move(points));
-    for (uint32_t v = 0; v < size(); ++v) {
-      if (result_.labels[v] != kNone) continue;
-      const uint32_t source = labelled[finite_at(v) ? nearest.find(point(v)) : 0];
-      result_.labels[v] = result_.labels[source];
-      result_.scalar[v] = result_.scalar[source];
+    const uint32_t rest = label_by_nearest(positions_, result_.labels, result_.scalar);
+    if (rest > 0) {
+      warn(std::to_string(rest) + " vertices of no segmented piece took the nearest region");
     }
   }
 
@@ -171,7 +147,8 @@ class Segmenter {
       const auto links = border_links(pieces_.surfaces[piece], labels);
       result_.links.insert(result_.links.end(), links.begin(), links.end());
     }
-    link_gaps();
+    const auto gaps = gap_links(positions_, result_.labels, result_.links);
+    result_.links.insert(result_.links.end(), gaps.begin(), gaps.end());
   }
 
   std::vector<uint32_t> labels_of(uint32_t piece) const {
@@ -192,49 +169,6 @@ class Segmenter {
       if (arc.region == kNone) arc.region = result_.labels[result_.graph.nodes[arc.from].vertex];
     }
     result_.region_count = count;
-  }
-
-  std::vector<Point> centroids() const {
-    std::vector<Point> sum(result_.region_count, Point::Zero());
-    std::vector<double> count(result_.region_count, 0.0);
-    for (uint32_t v = 0; v < size(); ++v) {
-      if (!finite_at(v)) continue;
-      sum[result_.labels[v]] += point(v);
-      ++count[result_.labels[v]];
-    }
-    for (uint32_t r = 0; r < sum.size(); ++r) sum[r] /= std::max(count[r], 1.0);
-    return sum;
-  }
-
-  // Connects the pieces by a shortest tree (Prim) between the centroids of their regions.
-  void link_gaps() {
-    const uint32_t count = result_.region_count;
-    const std::vector<Point> centre = centroids();
-    UnionFind joined(count);
-    for (const RegionLink& link : result_.links) joined.unite(link.a, link.b);
-    std::vector<double> gap(count, std::numeric_limits<double>::infinity());
-    std::vector<uint32_t> from(count, 0);
-    std::vector<bool> done(count, false);
-    uint32_t next = 0;
-    for (uint32_t step = 0; step < count; ++step) {
-      done[next] = true;
-      if (step > 0 && joined.unite(from[next], next)) {
-        const auto [a, b] = std::minmax(from[next], next);
-        result_.links.push_back({a, b, 0, gap[next]});
-      }
-      uint32_t nearest = kNone;
-      for (uint32_t r = 0; r < count; ++r) {
-        if (done[r]) continue;
-        const bool same = joined.find(r) == joined.find(next);
-        const double d = same ? 0 : (centre[r] - centre[next]).norm();
-        if (d < gap[r]) {
-          gap[r] = d;
-          from[r] = next;
-        }
-        if (nearest == kNone || gap[r] < gap[nearest]) nearest = r;
-      }
-      next = nearest;
-    }
   }
 
   const Options options_;
