@@ -1,0 +1,31 @@
+// Draco's edgebreaker as a coder of connectivity alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/limits.h"
+#include "bitstream/status.h"
+
+namespace reeb {
+
+/// What a Draco 2.2 edgebreaker file of a mesh with constant positions starts and ends with; the
+/// stream keeps what is in between, so that nothing but connectivity is ever decoded from foreign
+/// bytes.
+inline constexpr std::array<uint8_t, 11> kDracoFront = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0};
+inline constexpr std::array<uint8_t, 20> kDracoBack = {1, 0xFF, 0, 1, 1, 0, 5, 3,    0, 0,
+                                                       1, 0xFE, 1, 1, 3, 1, 1, 0x40, 1, 0};
+
+struct DracoMesh {
+  uint32_t point_count = 0;
+  std::vector<uint32_t> triangles;  ///< three points each
+};
+
+/// Decodes `middle`, a Draco file without its front and back. Its counts are checked against
+/// `limits` and its length before Draco sees it.
+Status decode_draco_connectivity(std::span<const uint8_t> middle, const Limits& limits,
+                                 DracoMesh& out);
+
+}  // namespace reeb

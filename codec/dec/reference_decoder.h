@@ -1,0 +1,17 @@
+// Decoder of the reference mesh of a shot.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bitstream/limits.h"
+#include "bitstream/status.h"
+#include "codec/common/reference_mesh.h"
+
+namespace reeb {
+
+/// Decodes what `encode_reference` made. The bytes may be anything; memory and time stay within
+/// what `limits` and their length justify.
+Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out);
+
+}  // namespace reeb

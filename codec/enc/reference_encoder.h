@@ -1,0 +1,25 @@
+// Encoder of the reference mesh of a shot.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/status.h"
+#include "codec/common/reference_mesh.h"
+
+namespace reeb {
+
+struct ReferenceOptions {
+  bool reorder = false;  ///< drop the vertex order of the input
+};
+
+/// Encodes any connectivity whose corners are below its vertex count (1 .. 2^30 vertices, at most
+/// 2^30 corners), with grid positions 0 .. kGridMax, [vertex][xyz] in input order. Every face comes
+/// back, up to the order of faces and the first corner of each. `decoded` is what the decoder makes
+/// of `bytes`, compared with the input.
+Status encode_reference(const Connectivity& connectivity, std::span<const int32_t> grid,
+                        const ReferenceOptions& options, std::vector<uint8_t>& bytes,
+                        ReferenceMesh& decoded);
+
+}  // namespace reeb
