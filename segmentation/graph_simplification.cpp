@@ -18,10 +18,14 @@ class Simplifier {
         persistence_(persistence),
         incident_(graph.nodes.size()),
         merged_(static_cast<uint32_t>(graph.arcs.size())),
+        contracted_(static_cast<uint32_t>(graph.nodes.size())),
+        shrunk_into_(graph.arcs.size(), kNone),
+        dissolved_into_(graph.nodes.size(), kNone),
         alive_(graph.arcs.size(), true) {
     for (uint32_t a = 0; a < graph.arcs.size(); ++a) {
       const auto [low, high] = graph.arcs[a];
-      arcs_.push_back({low, high, graph.nodes[high].value - graph.nodes[low].value});
+      const double bottom = graph.nodes[low].value, top = graph.nodes[high].value;
+      arcs_.push_back({low, high, bottom, top, top - bottom});
       incident_[low].push_back(a);
       incident_[high].push_back(a);
       queue_.insert({arcs_[a].length, a});
@@ -42,20 +46,17 @@ class Simplifier {
   size_t degree(uint32_t node) const { return incident_[node].size(); }
 
   void cancel(uint32_t arc) {
-    const auto [from, to, length] = arcs_[arc];
+    const uint32_t from = arcs_[arc].from, to = arcs_[arc].to;
     if (from == to) return;
     const bool leaf_from = degree(from) == 1, leaf_to = degree(to) == 1;
     if (leaf_from && leaf_to) return;
-    if (leaf_from || leaf_to) {
-      const uint32_t leaf = leaf_from ? from : to;
-      if (keep_[leaf]) return;
-      remove(arc);
-      dissolve(leaf_from ? to : from);
-    } else {
-      remove(arc);
-      move_arcs(to, from);
-      dissolve(from);
-    }
+    const uint32_t stays = leaf_from ? to : from, vanishes = leaf_from ? from : to;
+    if ((leaf_from || leaf_to) && keep_[vanishes]) return;
+    remove(arc);
+    move_arcs(vanishes, stays);
+    contracted_.unite(stays, vanishes);
+    shrunk_into_[arc] = stays;
+    dissolve(stays);
   }
 
   void remove(uint32_t arc) {
@@ -77,20 +78,26 @@ class Simplifier {
   void dissolve(uint32_t node) {
     if (degree(node) != 2 || incident_[node][0] == incident_[node][1]) return;
     const uint32_t first = incident_[node][0], second = incident_[node][1];
-    const uint32_t from = other_end(first, node), to = other_end(second, node);
-    const double length = arcs_[first].length + arcs_[second].length;
+    const SimplifiedGraph::Arc a = seen_from(first, node), b = seen_from(second, node);
     remove(first);
     remove(second);
     alive_[first] = true;
     merged_.unite(first, second);
-    arcs_[first] = {from, to, length};
-    incident_[from].push_back(first);
-    incident_[to].push_back(first);
-    queue_.insert({length, first});
+    dissolved_into_[node] = first;
+    arcs_[first] = {a.to, b.to, a.to_value, b.to_value, a.length + b.length};
+    incident_[a.to].push_back(first);
+    incident_[b.to].push_back(first);
+    queue_.insert({arcs_[first].length, first});
   }
 
-  uint32_t other_end(uint32_t arc, uint32_t node) const {
-    return arcs_[arc].from == node ? arcs_[arc].to : arcs_[arc].from;
+  // The arc in the direction that starts at `node`.
+  SimplifiedGraph::Arc seen_from(uint32_t arc, uint32_t node) const {
+    SimplifiedGraph::Arc a = arcs_[arc];
+    if (a.from != node) {
+      std::swap(a.from, a.to);
+      std::swap(a.from_value, a.to_value);
+    }
+    return a;
   }
 
   SimplifiedGraph collect() {
@@ -104,26 +111,50 @@ class Simplifier {
     for (uint32_t a = 0; a < arcs_.size(); ++a) {
       if (!alive_[a]) continue;
       arc_index[a] = static_cast<uint32_t>(result.arcs.size());
-      result.arcs.push_back({node_index[arcs_[a].from], node_index[arcs_[a].to], arcs_[a].length});
+      result.arcs.push_back(arcs_[a]);
+      result.arcs.back().from = node_index[arcs_[a].from];
+      result.arcs.back().to = node_index[arcs_[a].to];
     }
     for (uint32_t a = 0; a < arcs_.size(); ++a) {
-      result.arc_of.push_back(arc_index[merged_.find(a)]);
+      const auto [arc, node] = destination(a);
+      result.arc_of.push_back(arc == kNone ? kNone : arc_index[arc]);
+      result.node_of.push_back(node == kNone ? kNone : node_index[node]);
     }
     return result;
+  }
+
+  // The arc (first) or the node (second) that an arc of the input ended in; the other is kNone.
+  std::pair<uint32_t, uint32_t> destination(uint32_t arc) {
+    for (;;) {
+      arc = merged_.find(arc);
+      if (alive_[arc]) return {arc, kNone};
+      const uint32_t node = contracted_.find(shrunk_into_[arc]);
+      if (dissolved_into_[node] == kNone) return {kNone, node};
+      arc = dissolved_into_[node];
+    }
   }
 
   const ReebGraph& graph_;
   const std::vector<bool>& keep_;
   double persistence_;
   std::vector<std::vector<uint32_t>>
-      incident_;      // arcs at each node; one that returns is there twice
-  UnionFind merged_;  // a living arc represents those joined to it
+      incident_;                          // arcs at each node; one that returns is there twice
+  UnionFind merged_;                      // a living arc represents those joined to it
+  UnionFind contracted_;                  // a living node represents those contracted into it
+  std::vector<uint32_t> shrunk_into_;     // node of a cancelled arc
+  std::vector<uint32_t> dissolved_into_;  // arc of a node of degree two
   std::vector<bool> alive_;
   std::vector<SimplifiedGraph::Arc> arcs_;
   std::set<std::pair<double, uint32_t>> queue_;
 };
 
 }  // namespace
+
+uint32_t SimplifiedGraph::degree(uint32_t node) const {
+  uint32_t degree = 0;
+  for (const Arc& arc : arcs) degree += (arc.from == node) + (arc.to == node);
+  return degree;
+}
 
 SimplifiedGraph simplify(const ReebGraph& graph, const std::vector<bool>& keep,
                          double persistence) {

@@ -3,25 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/curvature.h"
 #include "segmentation/diffusion.h"
 #include "segmentation/feature_points.h"
 #include "segmentation/reeb_graph.h"
-#include "segmentation/regions.h"
+#include "segmentation/region_cut.h"
 
 namespace reeb::segmentation {
 namespace {
 
-// Regions of the arcs; an arc too short to have a vertex of its own shares that of its first node.
-void label_by_arcs(const Surface& surface, const ReebGraph& sweep, PieceResult& result) {
-  const uint32_t arc_count = static_cast<uint32_t>(result.graph.arcs.size());
-  result.labels.resize(surface.vertex_count());
-  for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
-    result.labels[v] = result.graph.arc_of[sweep.vertex_arc[v]];
-  }
-  grow_regions(surface, result.labels);
-  keep_connected(surface, result.labels, arc_count);
-  result.region_count = arc_count;
-}
+// Averages the curvature over a few rings, so that it shows joints and not the noise of a capture.
+constexpr int kCurvatureRounds = 4;
 
 }  // namespace
 
@@ -40,14 +32,16 @@ PieceResult single_region(const Surface& surface) {
   };
   const uint32_t start = farthest(0), end = farthest(start);
   result.graph.nodes = {{start, 0, NodeType::kMinimum}, {end, 0, NodeType::kMaximum}};
-  result.graph.arcs = {{0, 1, 0}};
+  result.graph.arcs = {{0, 1, 0, 0, 0}};
+  result.node_region.assign(2, kNone);
   return result;
 }
 
 bool analyse(const Surface& surface, const Options& options, PieceResult& result) {
   const double area = total_area(surface);
   if (!(area > 0) || !std::isfinite(area)) return false;
-  const Eigenpairs pairs = smallest_eigenpairs(build_laplacian(surface), options.eigenpairs);
+  const Laplacian laplacian = build_laplacian(surface);
+  const Eigenpairs pairs = smallest_eigenpairs(laplacian, options.eigenpairs);
   if (pairs.values.size() < 2 || !pairs.vectors.allFinite() || !(pairs.values[1] > 0)) return false;
   const Eigen::MatrixXd embedding =
       diffusion_embedding(pairs, options.diffusion_time / pairs.values[1]);
@@ -61,7 +55,12 @@ bool analyse(const Surface& surface, const Options& options, PieceResult& result
     keep.push_back(std::binary_search(result.features.begin(), result.features.end(), node.vertex));
   }
   result.graph = simplify(sweep, keep, options.graph_persistence);
-  label_by_arcs(surface, sweep, result);
+  const Eigen::VectorXd curvature = minimal_curvature(surface, laplacian, kCurvatureRounds);
+  RegionCut cut = cut_regions(surface, result.scalar, sweep, result.graph, curvature,
+                              {options.border_window, options.min_body});
+  result.labels = std::move(cut.labels);
+  result.region_count = cut.region_count;
+  result.node_region = std::move(cut.node_region);
   return true;
 }
 

@@ -11,11 +11,12 @@ namespace reeb::segmentation {
 
 /// Regions of one connected surface; all indices are local to it.
 struct PieceResult {
-  std::vector<uint32_t> labels;  ///< per vertex, 0 .. region_count-1: the arc of the graph
+  std::vector<uint32_t> labels;  ///< per vertex, 0 .. region_count-1
   uint32_t region_count = 1;     ///< arcs of the graph; one without a vertex of its own is possible
   std::vector<double> scalar;    ///< f per vertex
   std::vector<uint32_t> features;  ///< vertices, ascending
   SimplifiedGraph graph;
+  std::vector<uint32_t> node_region;  ///< per node, the region of its body or kNone
 };
 
 /// The whole surface as one arc between two points far apart, without a function.

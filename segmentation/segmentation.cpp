@@ -27,6 +27,8 @@ Options checked(Options o) {
   o.feature_persistence = limit(o.feature_persistence, 0, 1);
   o.feature_radius = limit(o.feature_radius, 0, 1);
   o.graph_persistence = limit(o.graph_persistence, 0, 1);
+  o.border_window = limit(o.border_window, 0, 1);
+  o.min_body = limit(o.min_body, 0, 1);
   o.min_piece_vertices = std::clamp(o.min_piece_vertices, 4u, 1000000u);
   o.max_regions = std::clamp(o.max_regions, 1u, 4096u);
   return o;
@@ -95,9 +97,12 @@ class Segmenter {
     const auto& original = pieces_.original[piece];
     const uint32_t first_node = static_cast<uint32_t>(result_.graph.nodes.size());
     const uint32_t first_region = result_.region_count;
-    for (const ReebNode& node : part.graph.nodes) {
-      result_.graph.nodes.push_back(
-          {original[node.vertex], node.value, node.type, result_.graph.component_count});
+    for (uint32_t n = 0; n < part.graph.nodes.size(); ++n) {
+      const ReebNode& node = part.graph.nodes[n];
+      const uint32_t body = part.node_region[n];
+      result_.graph.nodes.push_back({original[node.vertex], node.value, node.type,
+                                     result_.graph.component_count,
+                                     body == kNone ? kNoRegion : first_region + body});
     }
     ++result_.graph.component_count;
     for (uint32_t a = 0; a < part.graph.arcs.size(); ++a) {
@@ -167,6 +172,9 @@ class Segmenter {
     for (Arc& arc : result_.graph.arcs) {
       arc.region = index[arc.region];
       if (arc.region == kNone) arc.region = result_.labels[result_.graph.nodes[arc.from].vertex];
+    }
+    for (Node& node : result_.graph.nodes) {
+      if (node.region != kNoRegion) node.region = index[node.region];
     }
     result_.region_count = count;
   }

@@ -2,8 +2,9 @@
 //
 // Each connected piece of the surface is treated by itself: the extremities of the shape are found,
 // every vertex gets its diffusion distance to the nearest extremity, the Reeb graph of that
-// function is swept, and each of its arcs becomes a region (M. Hachani, "Reeb Graph Modeling of 3-D
-// Animated Meshes", thesis, 2015). Nothing here knows of streams or codecs.
+// function is swept, and each of its arcs becomes a region, as does the body where arcs meet (M.
+// Hachani, "Reeb Graph Modeling of 3-D Animated Meshes", thesis, 2015). Nothing here knows of
+// streams or codecs.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +27,22 @@ struct Options {
   double feature_radius = 0.12;
   /// Arcs of the graph shorter than this part of the range of the function are cancelled; 0 .. 1.
   double graph_persistence = 0.08;
+  /// Interval of the function, from a branching into an arc, in which the border looks for a
+  /// concavity; 0 .. 1.
+  double border_window = 0.12;
+  /// The body where arcs meet is a region of its own from this part of the vertices of its piece
+  /// on; 0 .. 1.
+  double min_body = 0.02;
   /// A piece of fewer vertices is one region, without a spectral analysis; 4 .. 1000000.
   uint32_t min_piece_vertices = 40;
   /// Regions at most; pieces beyond it join the nearest region in space; 1 .. 4096.
   uint32_t max_regions = 1024;
-  /// Vertices of equal position count as one, so that texture seams do not cut the surface.
+  /// Boundary vertices of equal position count as one, so that texture seams do not cut the
+  /// surface.
   bool weld = true;
 };
+
+inline constexpr uint32_t kNoRegion = 0xffffffffu;
 
 enum class NodeType : uint8_t { kMinimum, kMaximum, kSaddle };
 
@@ -41,7 +51,8 @@ struct Node {
   uint32_t vertex = 0;  ///< 0 .. V-1
   double value = 0;     ///< f at the vertex, 0 .. 1
   NodeType type = NodeType::kMinimum;
-  uint32_t component = 0;  ///< connected piece of the surface, 0 .. component_count-1
+  uint32_t component = 0;       ///< connected piece of the surface, 0 .. component_count-1
+  uint32_t region = kNoRegion;  ///< the body around a branching that is no arc's, if there is one
 };
 
 /// A family of contours between two critical points.

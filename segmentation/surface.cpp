@@ -17,14 +17,29 @@ bool finite_at(std::span<const float> positions, uint32_t v) {
          std::isfinite(positions[3 * v + 2]);
 }
 
-// The lowest vertex at the same position, itself when there is none.
-std::vector<uint32_t> representatives(std::span<const float> positions, bool weld) {
-  std::vector<uint32_t> lowest(positions.size() / 3);
+// Vertices on an edge of a single triangle: only there can a seam have cut the surface.
+std::vector<bool> boundary_vertices(std::span<const Triple> triangles, size_t vertices) {
+  std::vector<std::pair<uint32_t, uint32_t>> sides;
+  for (const Triple& t : triangles) {
+    for (int i = 0; i < 3; ++i) sides.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<bool> boundary(vertices, false);
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const bool like_last = i > 0 && sides[i] == sides[i - 1];
+    const bool like_next = i + 1 < sides.size() && sides[i] == sides[i + 1];
+    if (!like_last && !like_next) boundary[sides[i].first] = boundary[sides[i].second] = true;
+  }
+  return boundary;
+}
+
+// The lowest of the eligible vertices at the same position; itself for all others.
+std::vector<uint32_t> representatives(std::span<const float> positions,
+                                      const std::vector<bool>& eligible) {
+  std::vector<uint32_t> lowest(positions.size() / 3), order;
   std::iota(lowest.begin(), lowest.end(), 0u);
-  if (!weld) return lowest;
-  std::vector<uint32_t> order;
   for (uint32_t v = 0; v < lowest.size(); ++v) {
-    if (finite_at(positions, v)) order.push_back(v);
+    if (eligible[v]) order.push_back(v);
   }
   const auto key = [&](uint32_t v) {
     return std::array{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
@@ -48,24 +63,22 @@ bool usable(std::span<const float> positions, const Triple& t) {
 }
 
 std::vector<Triple> usable_triangles(std::span<const float> positions,
-                                     std::span<const uint32_t> triangles,
-                                     std::span<const uint32_t> lowest, uint32_t& ignored) {
+                                     std::span<const uint32_t> triangles) {
   std::vector<Triple> kept;
   kept.reserve(triangles.size() / 3);
   for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    Triple t = {triangles[i], triangles[i + 1], triangles[i + 2]};
-    bool good = usable(positions, t);
-    if (good) {
-      for (uint32_t& v : t) v = lowest[v];
-      good = usable(positions, t);
-    }
-    if (good) {
-      kept.push_back(t);
-    } else {
-      ++ignored;
-    }
+    const Triple t = {triangles[i], triangles[i + 1], triangles[i + 2]};
+    if (usable(positions, t)) kept.push_back(t);
   }
   return kept;
+}
+
+void weld_triangles(std::vector<Triple>& triangles, std::span<const uint32_t> lowest) {
+  for (Triple& t : triangles) {
+    for (uint32_t& v : t) v = lowest[v];
+  }
+  std::erase_if(triangles,
+                [](const Triple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
 }
 
 void number_vertices(Pieces& pieces, std::span<const Triple> triangles,
@@ -214,9 +227,12 @@ std::vector<double> edge_distances(const Surface& surface, uint32_t source, doub
 Pieces split_pieces(std::span<const float> positions, std::span<const uint32_t> triangles,
                     bool weld) {
   Pieces pieces;
-  const std::vector<uint32_t> lowest = representatives(positions, weld);
-  const std::vector<Triple> kept =
-      usable_triangles(positions, triangles, lowest, pieces.ignored_triangles);
+  std::vector<Triple> kept = usable_triangles(positions, triangles);
+  const size_t vertices = positions.size() / 3;
+  const std::vector<uint32_t> lowest = representatives(
+      positions, weld ? boundary_vertices(kept, vertices) : std::vector<bool>(vertices, false));
+  weld_triangles(kept, lowest);
+  pieces.ignored_triangles = static_cast<uint32_t>(triangles.size() / 3 - kept.size());
   number_vertices(pieces, kept, lowest);
   pieces.surfaces.resize(pieces.original.size());
   for (size_t p = 0; p < pieces.surfaces.size(); ++p) {

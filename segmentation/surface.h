@@ -63,11 +63,12 @@ struct Pieces {
   std::vector<uint32_t> piece;    ///< per input vertex, kNone when no usable triangle has it
   std::vector<uint32_t> local;    ///< per input vertex, its index within its piece
   std::vector<std::vector<uint32_t>>
-      original;                    ///< per piece and local vertex, the lowest input vertex
-  uint32_t ignored_triangles = 0;  ///< index out of range or repeated, or a vertex not finite
+      original;  ///< per piece and local vertex, the lowest input vertex
+  uint32_t ignored_triangles =
+      0;  ///< index out of range or repeated, no extent, or a vertex not finite
 };
 
-/// Splits a mesh; `weld` makes vertices of equal position one.
+/// Splits a mesh; `weld` makes boundary vertices of equal position one.
 Pieces split_pieces(std::span<const float> positions, std::span<const uint32_t> triangles,
                     bool weld);
 
