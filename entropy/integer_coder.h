@@ -9,7 +9,7 @@
 
 namespace reeb {
 
-/// Adaptive Exp-Golomb code of 0 .. 2^31-1: bit length of value+1 in unary, the bits below its
+/// Adaptive Exp-Golomb code of 0 .. 2^31-2: bit length of value+1 in unary, the bits below its
 /// leading one with the top two modelled and the rest even.
 class ExpGolombModel {
  public:
@@ -31,7 +31,7 @@ class ExpGolombModel {
   }
 
  private:
-  static constexpr uint32_t kMaxLength = 31;
+  static constexpr uint32_t kMaxLength = 30;
   std::array<AdaptiveBit, kMaxLength> length_;
   std::array<std::array<AdaptiveBit, 4>, kMaxLength + 1> top_;
 };

@@ -105,7 +105,7 @@ void Field::finish_component(double energy) {
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
   running_ = 0;
   if (!options_.adaptive) return;
-  const double noise = options_.noise_share * (energy / graph_.size()) + options_.noise_floor;
+  const double noise = options_.noise_share * (energy / (graph_.size() - graph_.size() / 4)) + options_.noise_floor;
   estimator_.observe(planes_.back().data(), noise);
   if (resolve_after(k)) estimator_.solve();
 }

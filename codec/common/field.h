@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <vector>
 
 #include "codec/common/magnitude_model.h"
@@ -15,7 +16,7 @@ namespace reeb {
 
 struct FieldOptions {
   WeightOptions weights;
-  double noise_share = 0.1;   ///< of a component's residual variance, as observation noise
+  double noise_share = 0.8;   ///< of a component's residual variance, as observation noise
   double noise_floor = 0.02;  ///< observation noise of a perfectly predicted component, in q^2
   bool adaptive = true;  ///< re-estimate weights; false keeps those of the reference (fast profile)
 };
@@ -41,8 +42,10 @@ class Field {
   /// Decoded values of component k, one per row.
   const std::vector<float>& plane(uint32_t k) const { return planes_[k]; }
   MagnitudeModel& model() { return model_; }
-  /// Forgets the components from `count` on (their effect on the models stays).
-  void truncate(uint32_t count) { planes_.resize(count); }
+  /// All decoded planes; the field is used up.
+  std::vector<std::vector<float>> take_planes() {
+    return {std::make_move_iterator(planes_.begin()), std::make_move_iterator(planes_.end())};
+  }
 
  private:
   float predict(uint32_t row, const float* plane) const;
@@ -74,7 +77,8 @@ void Field::code_component(Residual&& residual) {
     const int32_t n = residual(row, prediction, step, bins);
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
     plane[row] = prediction + correction;
-    energy += static_cast<double>(correction) * static_cast<double>(correction);
+    // The coarse quarter does not count: its few large residuals say nothing of the rest.
+    if (row >= graph_.size() / 4) energy += static_cast<double>(correction) * static_cast<double>(correction);
     note(row, n, step);
   }
   finish_component(energy);

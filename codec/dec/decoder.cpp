@@ -1,0 +1,181 @@
+#include "codec/dec/decoder.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bitstream/container.h"
+#include "codec/common/parallel.h"
+#include "codec/dec/group_decoder.h"
+#include "codec/dec/reference_decoder.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint64_t kBytesPerVertex =
+    2600;  ///< of weights, graph and contexts while a group is decoded
+
+struct DecodedShot {
+  DecodedSurface surface;
+  Connectivity connectivity;
+};
+
+StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
+  StreamInfo info;
+  info.format_version = container.format_version;
+  info.frame_rate = container.header.frame_rate;
+  info.start_time = container.header.start_time;
+  info.truncated = container.truncated;
+  info.file_bytes = file_bytes;
+  for (const ReferenceChunk& r : container.references) {
+    const bool kept = (r.mesh_header.flags & MeshHeader::kOrderKept) != 0;
+    info.shots.push_back(
+        {r.header.first_frame, 0, r.mesh_header.vertex_count, r.mesh_header.face_count, kept});
+  }
+  for (const GroupChunk& g : container.groups) {
+    const GroupHeader& h = g.header;
+    info.groups.push_back(
+        {h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count, g.size});
+    if (h.shot < info.shots.size()) info.shots[h.shot].frame_count += h.frame_count;
+    info.frame_count = std::max(info.frame_count, h.first_frame + h.frame_count);
+  }
+  for (const auto& [name, bytes] : container.sections) info.sections.push_back({name, bytes});
+  for (const MetadataEntry& m : container.metadata) info.metadata.emplace_back(m.key, m.value);
+  return info;
+}
+
+}  // namespace
+
+struct Decoder::Impl {
+  ContainerReader container;
+  DecodeOptions options;
+  StreamInfo info;
+  std::vector<std::optional<DecodedShot>> shots;  ///< by shot, decoded when first needed
+  size_t open_group = SIZE_MAX;
+  GroupSynthesis synthesis;
+
+  Status find_group(uint32_t frame, size_t& index) const;
+  Status open_shot(uint32_t shot);
+  Status open(size_t group);
+  Status check_memory(uint64_t vertices, uint64_t components) const;
+};
+
+Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
+  const auto& groups = container.groups;
+  const auto after =
+      std::upper_bound(groups.begin(), groups.end(), frame,
+                       [](uint32_t f, const GroupChunk& g) { return f < g.header.first_frame; });
+  if (after == groups.begin())
+    return Status::invalid("frame " + std::to_string(frame + 1) + " is not in the stream");
+  const GroupHeader& h = std::prev(after)->header;
+  if (frame - h.first_frame >= h.frame_count) {
+    const std::string name = "frame " + std::to_string(frame + 1);
+    if (frame >= container.header.total_frames) return Status::invalid(name + " is past the end");
+    return Status::corrupt(name + " is missing: its group is damaged or cut off");
+  }
+  index = static_cast<size_t>(std::prev(after) - groups.begin());
+  return {};
+}
+
+Status Decoder::Impl::check_memory(uint64_t vertices, uint64_t components) const {
+  if (vertices * (kBytesPerVertex + 4 * components) <= options.limits.max_memory) return {};
+  return Status::limit("a group needs more memory than the limit allows");
+}
+
+Status Decoder::Impl::open_shot(uint32_t shot) {
+  if (shot >= shots.size()) shots.resize(size_t{shot} + 1);
+  if (shots[shot]) return {};
+  const ReferenceChunk* chunk = container.reference(shot);
+  if (chunk == nullptr)
+    return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
+  if (Status s = check_memory(chunk->mesh_header.vertex_count, 0); !s.ok()) return s;
+  ReferenceMesh mesh;
+  if (Status s = decode_reference(chunk->mesh, options.limits, mesh); !s.ok()) return s;
+  DecodedShot out;
+  out.surface.grid = std::move(mesh.grid);
+  out.surface.surface = build_surface_graph(GridPoints(out.surface.grid), mesh.triangles);
+  for (const uint32_t v : out.surface.surface.order)
+    out.surface.output.push_back(mesh.output_index[v]);
+  std::copy(std::begin(chunk->header.origin), std::end(chunk->header.origin), out.surface.origin);
+  out.connectivity = std::move(mesh.connectivity);
+  shots[shot] = std::move(out);
+  return {};
+}
+
+Status Decoder::Impl::open(size_t group) {
+  if (group == open_group) return {};
+  const GroupChunk& chunk = container.groups[group];
+  if (Status s = open_shot(chunk.header.shot); !s.ok()) return s;
+  const DecodedSurface& surface = shots[chunk.header.shot]->surface;
+  if (Status s = check_memory(surface.output.size(), chunk.header.component_count); !s.ok())
+    return s;
+  open_group = SIZE_MAX;
+  if (Status s = decode_group(chunk, surface, resolve_threads(options.threads), synthesis); !s.ok())
+    return s;
+  open_group = group;
+  return {};
+}
+
+Decoder::Decoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Decoder::~Decoder() = default;
+
+Status Decoder::open(std::span<const uint8_t> bytes, const DecodeOptions& options,
+                     std::unique_ptr<Decoder>& decoder) {
+  auto impl = std::make_unique<Impl>();
+  impl->options = options;
+  if (Status s = impl->container.parse(bytes, options.limits); !s.ok()) return s;
+  impl->info = make_info(impl->container, bytes.size());
+  decoder.reset(new Decoder(std::move(impl)));
+  return {};
+}
+
+const StreamInfo& Decoder::info() const { return impl_->info; }
+
+Status Decoder::connectivity(uint32_t frame, const Connectivity*& out) {
+  size_t group = 0;
+  if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
+  const uint32_t shot = impl_->container.groups[group].header.shot;
+  if (Status s = impl_->open_shot(shot); !s.ok()) return s;
+  out = &impl_->shots[shot]->connectivity;
+  return {};
+}
+
+Status Decoder::decode_frame(uint32_t frame, float* xyz, size_t stride) {
+  size_t group = 0;
+  if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
+  if (Status s = impl_->open(group); !s.ok()) return s;
+  const GroupHeader& header = impl_->container.groups[group].header;
+  impl_->synthesis.frame(frame - header.first_frame, impl_->shots[header.shot]->surface.output, xyz,
+                         stride);
+  return {};
+}
+
+Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
+                       Sequence& out) {
+  std::unique_ptr<Decoder> decoder;
+  if (Status s = Decoder::open(bytes, options, decoder); !s.ok()) return s;
+  const StreamInfo& info = decoder->info();
+  Sequence sequence;
+  sequence.frame_rate = info.frame_rate;
+  sequence.start_time = info.start_time;
+  for (const auto& [key, value] : info.metadata) sequence.metadata[key] = value;
+  for (const StreamInfo::Group& group : info.groups) {
+    if (group.shot >= sequence.shots.size()) sequence.shots.resize(size_t{group.shot} + 1);
+    Shot& shot = sequence.shots[group.shot];
+    const Connectivity* connectivity = nullptr;
+    if (Status s = decoder->connectivity(group.first_frame, connectivity); !s.ok()) return s;
+    if (shot.frame_count == 0) shot.connectivity = *connectivity;
+    const size_t frame_size = size_t{connectivity->vertex_count} * 3;
+    shot.positions.resize(frame_size * (shot.frame_count + group.frame_count));
+    for (uint32_t t = 0; t < group.frame_count; ++t) {
+      float* xyz = shot.positions.data() + frame_size * (shot.frame_count + t);
+      if (Status s = decoder->decode_frame(group.first_frame + t, xyz, 3); !s.ok()) return s;
+    }
+    shot.frame_count += group.frame_count;
+  }
+  out = std::move(sequence);
+  return {};
+}
+
+}  // namespace reeb
