@@ -26,7 +26,8 @@ bool BinaryEncoder::code(bool bit, Probability p1) {
 void BinaryEncoder::shift_low() {
   const bool carry = (low_ >> 32) != 0;
   const auto top = static_cast<uint8_t>(low_ >> 24);
-  if (carry || top != 0xFF) {  // no later carry can reach the cached bytes: they are final
+  // Unless the new byte is 0xFF no later carry can reach the cached bytes: they are final.
+  if (carry || top != 0xFF || cache_size_ == 0) {
     if (cache_size_ > 0) bytes_.push_back(static_cast<uint8_t>(cache_ + (carry ? 1 : 0)));
     for (uint64_t i = 1; i < cache_size_; ++i) bytes_.push_back(carry ? 0x00 : 0xFF);
     cache_ = top;
