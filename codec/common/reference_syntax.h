@@ -32,6 +32,10 @@ struct MeshState {
   Polygons listed;                        ///< all other faces, corners are coding vertices
 };
 
+/// Triangles of a complete state in coding numbering: Draco's, then the fans of the listed faces;
+/// those with two equal corners are left out.
+std::vector<uint32_t> collect_triangles(const MeshState& state);
+
 /// Entry i of a list that is either complete or i entries long.
 template <class T>
 T& slot(std::vector<T>& list, size_t i) {
@@ -49,6 +53,15 @@ template <class Coder>
 bool ran_dry(const Coder& coder) {
   if constexpr (kDecodes<Coder>) return coder.overrun();
   return false;
+}
+
+/// part / whole as a probability of a 1, never certain; part <= whole, whole > 0.
+inline Probability ratio_to_probability(uint64_t part, uint64_t whole) {
+  while (whole >> 48 != 0) {
+    whole >>= 8;
+    part >>= 8;
+  }
+  return static_cast<Probability>(std::clamp<uint64_t>((part << 16) / whole, 1, 65535));
 }
 
 /// Which points are the same vertex: only points at the same place can be.

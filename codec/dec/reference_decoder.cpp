@@ -45,25 +45,6 @@ Status decode_state(const Sections& sections, const Limits& limits, MeshState& s
   return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces);
 }
 
-void append_triangle(uint32_t a, uint32_t b, uint32_t c, std::vector<uint32_t>& triangles) {
-  if (a != b && b != c && c != a) triangles.insert(triangles.end(), {a, b, c});
-}
-
-void collect_triangles(const MeshState& state, std::vector<uint32_t>& triangles) {
-  const auto& v = state.vertex_of_point;
-  for (size_t t = 0; t < state.triangles.size(); t += 3) {
-    append_triangle(v[state.triangles[t]], v[state.triangles[t + 1]], v[state.triangles[t + 2]],
-                    triangles);
-  }
-  const uint32_t* corner = state.listed.corners.data();
-  for (const uint32_t size : state.listed.sizes) {
-    for (uint32_t i = 1; i + 1 < size; ++i) {
-      append_triangle(corner[0], corner[i], corner[i + 1], triangles);
-    }
-    corner += size;
-  }
-}
-
 void collect_faces(const MeshState& state, const std::vector<uint32_t>& output_index,
                    Connectivity& out) {
   out.vertex_count = state.vertex_count;
@@ -77,7 +58,7 @@ void collect_faces(const MeshState& state, const std::vector<uint32_t>& output_i
 }
 
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
-                    std::vector<uint32_t>& output_index) {
+                    std::span<const uint32_t> triangles, std::vector<uint32_t>& output_index) {
   if ((h.flags & MeshHeader::kOrderKept) == 0) {
     if (!bytes.empty()) return Status::corrupt("mesh: an order where none is kept");
     output_index.resize(h.vertex_count);
@@ -85,7 +66,7 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
     return {};
   }
   BinaryDecoder coder(bytes);
-  return VertexOrderSyntax().code(coder, h.vertex_count, output_index);
+  return code_vertex_order(coder, h.vertex_count, triangles, output_index);
 }
 
 }  // namespace
@@ -99,9 +80,11 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   state.vertex_count = h.vertex_count;
   state.face_count = h.face_count;
   if (Status s = decode_state(sections, limits, state); !s.ok()) return s;
-  if (Status s = decode_order(h, sections.order, out.output_index); !s.ok()) return s;
   out.vertex_count = h.vertex_count;
-  collect_triangles(state, out.triangles);
+  out.triangles = collect_triangles(state);
+  if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {
+    return s;
+  }
   collect_faces(state, out.output_index, out.connectivity);
   out.grid = std::move(state.grid);
   return {};

@@ -172,12 +172,13 @@ MeshState make_state(const Connectivity& input, std::span<const int32_t> grid,
   return s;
 }
 
-Status write_order(const std::vector<uint32_t>& coding, std::vector<uint8_t>& bytes) {
+Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
+                   std::vector<uint8_t>& bytes) {
   std::vector<uint32_t> output_index(coding.size());
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
   BinaryEncoder coder;
   Status status =
-      VertexOrderSyntax().code(coder, static_cast<uint32_t>(coding.size()), output_index);
+      code_vertex_order(coder, state.vertex_count, collect_triangles(state), output_index);
   bytes = coder.finish();
   return status;
 }
@@ -216,7 +217,7 @@ Status encode_reference(const Connectivity& connectivity, std::span<const int32_
   const std::vector<uint8_t> rest = coder.finish();
   std::vector<uint8_t> order;
   if (!options.reorder) {
-    if (Status s = write_order(coding, order); !s.ok()) return s;
+    if (Status s = write_order(state, coding, order); !s.ok()) return s;
   }
   const MeshHeader header = {state.vertex_count,
                              state.face_count,
