@@ -1,0 +1,175 @@
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "tests/tools/temp_folder.h"
+#include "tests/tools/test_meshes.h"
+#include "tools/io/output_set.h"
+#include "tools/io/point_cache.h"
+#include "tools/io/read_sequence.h"
+#include "tools/io/write_sequence.h"
+
+namespace reeb::tools {
+namespace {
+
+using Names = std::set<std::string>;
+
+Sequence three_frames() {
+  Sequence sequence;
+  sequence.frame_rate = 25;
+  sequence.start_time = 4;
+  Shot& shot = sequence.shots.emplace_back();
+  shot.connectivity = test_mesh("quad", square(), {{0, 1, 2, 3}, {0, 0, 1}}).connectivity;
+  shot.frame_count = 3;
+  for (int i = 0; i < 36; ++i) shot.positions.push_back(static_cast<float>(i) / 7);
+  return sequence;
+}
+
+}  // namespace
+
+TEST_CASE("an output set shows its files only when committed") {
+  const TempFolder folder;
+  OutputSet files(false);
+  REQUIRE(files.prepare({folder / "b", folder / "new/deep/a"}).ok());
+  REQUIRE(files.write(folder / "new/deep/a", "first ").ok());
+  REQUIRE(files.write(folder / "new/deep/a", "second").ok());
+  REQUIRE(files.write(folder / "b", "b").ok());
+  CHECK_FALSE(std::filesystem::exists(folder / "b"));
+  CHECK_FALSE(std::filesystem::exists(folder / "new/deep/a"));
+  REQUIRE(files.commit().ok());
+  CHECK(folder.names() == Names{"b", "new", "new/deep", "new/deep/a"});
+  CHECK(read_text(folder / "new/deep/a") == "first second");
+}
+
+TEST_CASE("an abandoned output set leaves nothing, not even its folders") {
+  const TempFolder folder;
+  folder.write("kept", "old");
+  {
+    OutputSet files(true);
+    REQUIRE(files.prepare({folder / "kept", folder / "new/a"}).ok());
+    REQUIRE(files.write(folder / "kept", "new").ok());
+    REQUIRE(files.write(folder / "new/a", "x").ok());
+    CHECK(folder.names().size() == 4);
+  }
+  CHECK(folder.names() == Names{"kept"});
+  CHECK(read_text(folder / "kept") == "old");
+}
+
+TEST_CASE("an output set refuses to overwrite unless told to") {
+  const TempFolder folder;
+  folder.write("a", "old");
+  OutputSet careful(false);
+  CHECK_THAT(careful.prepare({folder / "a"}).message(), Catch::Contains("-f"));
+  OutputSet bold(true);
+  REQUIRE(bold.prepare({folder / "a"}).ok());
+  REQUIRE(bold.write(folder / "a", "new").ok());
+  REQUIRE(bold.commit().ok());
+  CHECK(read_text(folder / "a") == "new");
+  CHECK_FALSE(bold.prepare({folder.path()}).ok());
+  CHECK_FALSE(bold.write(folder / "unannounced", "x").ok());
+}
+
+TEST_CASE("a target that appears in the meantime is not overwritten") {
+  const TempFolder folder;
+  OutputSet files(false);
+  REQUIRE(files.prepare({folder / "a"}).ok());
+  REQUIRE(files.write(folder / "a", "ours").ok());
+  folder.write("a", "theirs");
+  CHECK_FALSE(files.commit().ok());
+  CHECK(read_text(folder / "a") == "theirs");
+}
+
+TEST_CASE("special files and links stay what they are") {
+  const TempFolder folder;
+  std::filesystem::create_symlink("real", folder / "link");
+  folder.write("real", "old");
+  OutputSet files(true);
+  REQUIRE(files.prepare({"/dev/null", folder / "link"}).ok());
+  REQUIRE(files.write("/dev/null", "gone").ok());
+  REQUIRE(files.write(folder / "link", "new").ok());
+  REQUIRE(files.commit().ok());
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+  CHECK(read_text(folder / "real") == "new");
+}
+
+TEST_CASE("output names") {
+  const TempFolder folder;
+  OutputName name;
+  using Kind = OutputName::Kind;
+  REQUIRE(parse_output_name("o/f_%03d.ply", 5, name).ok());
+  CHECK(name.kind == Kind::kFrames);
+  REQUIRE(parse_output_name("o/x.pc2", 5, name).ok());
+  CHECK(name.kind == Kind::kCache);
+  REQUIRE(parse_output_name("x.obj", 1, name).ok());
+  CHECK(name.kind == Kind::kSingleMesh);
+  REQUIRE(parse_output_name(folder.path().string(), 5, name).ok());
+  CHECK(name.pattern == folder / "frame_%04d.obj");
+  REQUIRE(parse_output_name("new_folder", 5, name).ok());
+  CHECK(name.pattern == "new_folder/frame_%04d.obj");
+  CHECK_THAT(parse_output_name("x.obj", 5, name).message(), Catch::Contains("x_%04d.obj"));
+  CHECK_FALSE(parse_output_name("x.txt", 1, name).ok());
+  CHECK_FALSE(parse_output_name("x_%04d.txt", 1, name).ok());
+}
+
+TEST_CASE("sequences survive every output to the bit") {
+  const TempFolder folder;
+  const Sequence sequence = three_frames();
+  for (const std::string name :
+       {"a/f_%04d.obj", "b/f%d.ply", "c/f_%02d.off", "d/x.pc2", "e/x.mdd"}) {
+    INFO(name);
+    REQUIRE(write_sequence(source_of(sequence), folder / name, {}).ok());
+    Sequence back;
+    ReadReport report;
+    REQUIRE(read_sequence({folder / name.substr(0, 1)}, {}, back, report).ok());
+    REQUIRE(back.shots.size() == 1);
+    CHECK(back.shots[0].connectivity == sequence.shots[0].connectivity);
+    CHECK(back.shots[0].positions == sequence.shots[0].positions);
+    if (name == "d/x.pc2" || name == "e/x.mdd") CHECK(back.start_time == 4);
+    if (name == "e/x.mdd") CHECK(back.frame_rate == 25);
+  }
+  CHECK(folder.names().count("a/f_0003.obj") == 1);
+  CHECK(folder.names().count("d/x.obj") == 1);
+}
+
+TEST_CASE("frame files are all there or none is") {
+  const TempFolder folder;
+  const Sequence sequence = three_frames();
+  FrameSource source = source_of(sequence);
+  const auto good = source.frame;
+  source.frame = [&](uint32_t i, const Connectivity*& c, std::vector<float>& p) {
+    return i == 2 ? Status::corrupt("frame 3 is broken") : good(i, c, p);
+  };
+  for (const char* name : {"out/f_%04d.obj", "out.pc2"}) {
+    const Status status = write_sequence(source, folder / name, {.threads = 1});
+    CHECK(status.message() == "frame 3 is broken");
+    CHECK(folder.names().empty());
+  }
+
+  folder.write("f_0002.obj", "old");
+  CHECK_FALSE(write_sequence(source_of(sequence), folder / "f_%04d.obj", {}).ok());
+  CHECK(folder.names() == Names{"f_0002.obj"});
+  CHECK(read_text(folder / "f_0002.obj") == "old");
+  REQUIRE(write_sequence(source_of(sequence), folder / "f_%04d.obj", {.overwrite = true}).ok());
+  CHECK(folder.names().size() == 3);
+}
+
+TEST_CASE("a cache refuses a change of connectivity, frame files take it") {
+  const TempFolder folder;
+  Sequence sequence = three_frames();
+  sequence.shots.push_back({plain_mesh().connectivity, 1, plain_mesh().positions});
+  const Status status = write_sequence(source_of(sequence), folder / "x.pc2", {});
+  CHECK_THAT(status.message(), Catch::Contains("frame 4"));
+  CHECK(folder.names().empty());
+  CHECK(write_sequence(source_of(sequence), folder / "f_%d.obj", {}).ok());
+}
+
+TEST_CASE("a full disk is reported and leaves nothing") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  OutputSet files(true);
+  REQUIRE(files.prepare({"/dev/full"}).ok());
+  const Status status = files.write("/dev/full", "x");
+  CHECK_FALSE(status.ok());
+  CHECK_THAT(status.message(), Catch::Contains("/dev/full"));
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,48 @@
+// The sub-commands of `reeb`. Each adds itself to the application; when it has been called, it
+// leaves its exit code in `exit_code`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "bitstream/status.h"
+#include "tools/console.h"
+
+namespace reeb::tools {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;         ///< input or output, or bad data
+inline constexpr int kExitUsage = 2;          ///< the command line
+inline constexpr int kExitOverTolerance = 3;  ///< a comparison
+
+void add_encode_command(CLI::App& app, int& exit_code);
+void add_decode_command(CLI::App& app, int& exit_code);
+void add_info_command(CLI::App& app, int& exit_code);
+void add_compare_command(CLI::App& app, int& exit_code);
+void add_sample_command(CLI::App& app, int& exit_code);
+
+/// -q, -v, --progress.
+void add_console_options(CLI::App& command, ConsoleOptions& options);
+
+/// -T/--threads.
+void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// Shows the message of a failed status and gives its exit code.
+int fail(Console& console, const Status& status);
+
+/// A positive number with an optional suffix: "0.01" or "0.1%".
+struct AbsoluteOrPercent {
+  double value = 0;
+  bool percent = false;
+
+  /// In the unit of `whole`.
+  double of(double whole) const { return percent ? value / 100 * whole : value; }
+};
+
+/// Empty where `text` is good, what is wrong otherwise (as CLI11 wants its checks).
+std::string parse_absolute_or_percent(const std::string& text, AbsoluteOrPercent& out);
+
+/// "1500000", "1.5M", "2MiB", "500k", "64KiB", "1G", "1GiB": bytes. Result as above.
+std::string parse_byte_count(const std::string& text, double& out);
+
+}  // namespace reeb::tools

@@ -1,0 +1,48 @@
+// What the commands tell the user, on standard error.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace reeb::tools {
+
+enum class ProgressMode { kAuto, kAlways, kNever };
+
+/// Options that all commands share.
+struct ConsoleOptions {
+  bool quiet = false;
+  bool verbose = false;
+  ProgressMode progress = ProgressMode::kAuto;  ///< auto: on a terminal
+};
+
+class Console {
+ public:
+  explicit Console(const ConsoleOptions& options);
+  ~Console() { clear_bar(); }
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// Always shown, behind "reeb: ".
+  void error(const std::string& text);
+  /// Shown unless quiet.
+  void say(const std::string& text);
+  void say_all(const std::vector<std::string>& texts);
+  /// Shown when verbose.
+  void detail(const std::string& text);
+  /// A function that draws a bar for the done part in [0,1] of the work called `label`, where
+  /// wanted.
+  std::function<void(double)> bar(const std::string& label);
+
+ private:
+  void draw(const std::string& label, double done);
+  void clear_bar();
+
+  ConsoleOptions options_;
+  bool show_bar_;
+  bool bar_visible_ = false;
+  std::chrono::steady_clock::time_point last_draw_;
+};
+
+}  // namespace reeb::tools

@@ -1,0 +1,238 @@
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "codec/enc/encoder.h"
+#include "tools/command.h"
+#include "tools/io/output_set.h"
+#include "tools/io/read_sequence.h"
+#include "tools/metrics.h"
+#include "tools/text.h"
+
+namespace reeb::tools {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string output;
+  double kg = 0;
+  AbsoluteOrPercent max_error;
+  double bpvf = 0;
+  double size = 0;
+  bool fast = false;
+  bool overwrite = false;
+  bool json = false;
+  bool allow_gaps = false;
+  std::optional<double> frame_rate;
+  std::optional<double> start_time;
+  unsigned threads = 0;
+  EncodeOptions encoder;
+  ConsoleOptions console;
+};
+
+/// What the sequence would take uncompressed: float32 positions, and the faces once per shot.
+uint64_t raw_bytes(const Sequence& sequence) {
+  uint64_t bytes = 12 * vertex_frames(sequence);
+  for (const Shot& shot : sequence.shots) {
+    bytes += 4 * (shot.connectivity.face_sizes.size() + shot.connectivity.corners.size());
+  }
+  return bytes;
+}
+
+void choose_target(const Options& o, const Sequence& sequence, EncodeOptions& out) {
+  const auto aim = [&](Target target, double value) {
+    out.target = target;
+    out.target_value = value;
+  };
+  if (o.kg > 0) aim(Target::kKg, o.kg);
+  if (o.max_error.value > 0) {
+    aim(Target::kMaxError, o.max_error.of(bounding_diagonal(sequence)));
+  }
+  if (o.bpvf > 0) aim(Target::kBpvf, o.bpvf);
+  if (o.size > 0) aim(Target::kSize, o.size);
+}
+
+Status write_stream(const Options& o, const std::vector<uint8_t>& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (o.output == "-") {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    return written && std::fflush(stdout) == 0 ? Status()
+                                               : Status::io("standard output: cannot be written");
+  }
+  OutputSet files(o.overwrite);
+  Status status = files.prepare({o.output});
+  if (status.ok()) status = files.write(o.output, text);
+  return status.ok() ? files.commit() : status;
+}
+
+void report(const Options& o, const Sequence& sequence, const EncodeStats& stats,
+            Console& console) {
+  const double diagonal = bounding_diagonal(sequence);
+  const double relative = diagonal > 0 ? 100 * stats.max_error / diagonal : 0;
+  const double ratio = static_cast<double>(raw_bytes(sequence)) / static_cast<double>(stats.bytes);
+  console.say(o.output + ": " + byte_size(stats.bytes) + ", " + brief(stats.bpvf) +
+              " bits per vertex and frame, " + brief(ratio, 3) + " times smaller than float32");
+  console.say("error: KG " + brief(stats.kg) + " %, RMSE " + brief(stats.rmse) + ", maximum " +
+              brief(stats.max_error) + " (" + brief(relative) + " % of the diagonal)");
+  for (const EncodeStats::Section& s : stats.sections) {
+    console.detail("  " + s.name + ": " + byte_size(static_cast<uint64_t>(s.bits / 8)));
+  }
+  if (!o.json) return;
+  nlohmann::ordered_json json{{"file", o.output},
+                              {"bytes", stats.bytes},
+                              {"bpvf", stats.bpvf},
+                              {"kg", stats.kg},
+                              {"rmse", stats.rmse},
+                              {"max_error", stats.max_error},
+                              {"max_error_percent_of_diagonal", relative},
+                              {"ratio", ratio},
+                              {"sections", nlohmann::ordered_json::object()},
+                              {"notes", stats.notes}};
+  for (const EncodeStats::Section& s : stats.sections) json["sections"][s.name] = s.bits / 8;
+  std::cout << json.dump(2) << "\n";
+}
+
+int run(Options& o) {
+  Console console(o.console);
+  if (o.json && o.output == "-") {
+    console.error("--json and -o - both want standard output; name an output file");
+    return kExitUsage;
+  }
+  if (o.output != "-") {
+    if (Status status = check_target(o.output, o.overwrite); !status.ok()) {
+      return fail(console, status);
+    }
+  }
+  Sequence sequence;
+  ReadReport read;
+  Status status = read_sequence(
+      o.inputs,
+      {.threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")},
+      sequence, read);
+  if (!status.ok()) return fail(console, status);
+  console.say_all(read.notes);
+  if (o.frame_rate) sequence.frame_rate = *o.frame_rate;
+  if (o.start_time) sequence.start_time = *o.start_time;
+  console.detail(counted(sequence.frame_count(), "frame") + " of " +
+                 counted(sequence.shots[0].connectivity.vertex_count, "vertex") + " read");
+
+  choose_target(o, sequence, o.encoder);
+  o.encoder.fast_profile = o.fast;
+  o.encoder.threads = o.threads;
+  if (const auto bar = console.bar("encoding")) {
+    o.encoder.progress = [bar](double done) {
+      bar(done);
+      return true;
+    };
+  }
+  std::vector<uint8_t> bytes;
+  EncodeStats stats;
+  status = encode(sequence, o.encoder, bytes, stats);
+  if (status.ok()) status = write_stream(o, bytes);
+  if (!status.ok()) return fail(console, status);
+  console.say_all(stats.notes);
+  report(o, sequence, stats, console);
+  return kExitDone;
+}
+
+void add_target_options(CLI::App& command, Options& o) {
+  const std::string group = "Target (one of them; default --kg 0.05)";
+  std::vector<CLI::Option*> targets;
+  targets.push_back(command.add_option("--kg", o.kg, "KG error in percent, > 0")
+                        ->check(CLI::PositiveNumber.description(""))
+                        ->type_name("P"));
+  targets.push_back(command
+                        .add_option_function<std::string>(
+                            "--max-error",
+                            [&o](const std::string& text) {
+                              const std::string bad = parse_absolute_or_percent(text, o.max_error);
+                              if (!bad.empty()) throw CLI::ValidationError("--max-error", bad);
+                            },
+                            "Largest displacement of a vertex, > 0, in units of the input, or as "
+                            "E% of the bounding-box diagonal of the sequence")
+                        ->type_name("E"));
+  targets.push_back(command.add_option("--bpvf", o.bpvf, "Bits per vertex and frame, > 0")
+                        ->check(CLI::PositiveNumber.description(""))
+                        ->type_name("R"));
+  targets.push_back(command
+                        .add_option_function<std::string>(
+                            "--size",
+                            [&o](const std::string& text) {
+                              const std::string bad = parse_byte_count(text, o.size);
+                              if (!bad.empty()) throw CLI::ValidationError("--size", bad);
+                            },
+                            "Bytes of the file, not exceeded; suffixes k, M, KiB, MiB, GiB")
+                        ->type_name("BYTES"));
+  for (size_t i = 0; i < targets.size(); ++i) {
+    targets[i]->group(group);
+    for (size_t j = 0; j < i; ++j) targets[i]->excludes(targets[j]);
+  }
+}
+
+void add_coding_options(CLI::App& command, Options& o) {
+  const std::string group = "Coding";
+  command
+      .add_option(
+          "--group-length", o.encoder.group_length,
+          "Frames of a group, which decodes alone: 1 to 65536; default chosen by the encoder")
+      ->check(CLI::Range(1u, 65536u).description(""))
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_flag("--reorder", o.encoder.reorder,
+                "Do not keep the vertex order of the input (smaller)")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--profile", [&o](const std::string& name) { o.fast = name == "fast"; },
+          "main (smallest) or fast (decodes quicker); default main")
+      ->check(CLI::IsMember({"main", "fast"}).description(""))
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--regions",
+          [&o](const std::string& text) {
+            if (text == "auto") return;
+            if (!CLI::detail::lexical_cast(text, o.encoder.regions) || o.encoder.regions < 0) {
+              throw CLI::ValidationError("--regions", "'" + text + "' is neither auto nor >= 0");
+            }
+          },
+          "Regions of the motion model, 0 = none; default auto (by rate and distortion)")
+      ->type_name("N")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_encode_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("encode", "Compress a sequence into a .reeb file");
+  auto o = std::make_shared<Options>();
+  command
+      ->add_option("INPUT", o->inputs,
+                   "A folder, a pattern (walk/*.obj, f_%04d.ply), mesh files, a mesh and a point "
+                   "cache (.pc2, .mdd), or a .reeb file; - = a .reeb stream on standard input")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", o->output, "The .reeb file; - = standard output")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
+  command->add_flag("--allow-gaps", o->allow_gaps, "Missing frame numbers are not an error");
+  command->add_flag("--json", o->json, "Report as JSON on standard output");
+  add_target_options(*command, *o);
+  add_coding_options(*command, *o);
+  command->add_option("--fps", o->frame_rate, "Frames per second, > 0; default as in the input")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("R")
+      ->group("Time");
+  command->add_option("--start", o->start_time, "Time of the first frame, in frames")
+      ->type_name("T")
+      ->group("Time");
+  add_threads_option(*command, o->threads);
+  add_console_options(*command, o->console);
+  command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,116 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "codec/dec/decoder.h"
+#include "tools/command.h"
+#include "tools/io/file_bytes.h"
+#include "tools/text.h"
+
+namespace reeb::tools {
+namespace {
+
+struct Options {
+  std::string input;
+  bool json = false;
+  ConsoleOptions console;
+};
+
+double bits_per_vertex_and_frame(const StreamInfo& info) {
+  double n = 0;
+  for (const auto& shot : info.shots) n += double{1} * shot.vertex_count * shot.frame_count;
+  return n > 0 ? 8 * static_cast<double>(info.file_bytes) / n : 0;
+}
+
+nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"file", name},
+            {"format_version", info.format_version},
+            {"bytes", info.file_bytes},
+            {"bpvf", bits_per_vertex_and_frame(info)},
+            {"frames", info.frame_count},
+            {"frame_rate", info.frame_rate},
+            {"start_time", info.start_time},
+            {"truncated", info.truncated},
+            {"shots", Json::array()},
+            {"groups", Json::array()},
+            {"sections", Json::object()},
+            {"metadata", Json::object()}};
+  for (const auto& s : info.shots) {
+    json["shots"].push_back({{"first_frame", s.first_frame + 1},
+                             {"frames", s.frame_count},
+                             {"vertices", s.vertex_count},
+                             {"faces", s.face_count},
+                             {"order_kept", s.order_kept}});
+  }
+  for (const auto& g : info.groups) {
+    json["groups"].push_back({{"first_frame", g.first_frame + 1},
+                              {"frames", g.frame_count},
+                              {"shot", g.shot + 1},
+                              {"regions", g.region_count},
+                              {"components", g.component_count},
+                              {"bytes", g.bytes}});
+  }
+  for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
+  for (const auto& [key, value] : info.metadata) json["metadata"][key] = value;
+  return json;
+}
+
+void print_text(const std::string& name, const StreamInfo& info, std::ostream& out) {
+  out << name << ": reeb format " << info.format_version << ", " << byte_size(info.file_bytes)
+      << ", " << brief(bits_per_vertex_and_frame(info)) << " bits per vertex and frame"
+      << (info.truncated ? ", truncated" : "") << "\n";
+  out << counted(info.frame_count, "frame");
+  if (info.frame_rate > 0) out << " at " << brief(info.frame_rate, 6) << " per second";
+  if (info.start_time != 0) out << ", from time " << brief(info.start_time, 6);
+  out << "\n";
+  for (const auto& s : info.shots) {
+    out << "from frame " << grouped(s.first_frame + 1) << ": " << counted(s.frame_count, "frame")
+        << " of " << counted(s.vertex_count, "vertex") << ", " << counted(s.face_count, "face")
+        << (s.order_kept ? "" : ", vertices reordered") << "\n";
+  }
+  out << counted(info.groups.size(), "group") << "\n";
+  for (const auto& g : info.groups) {
+    out << "  frames " << grouped(g.first_frame + 1) << " to "
+        << grouped(g.first_frame + g.frame_count) << ": " << counted(g.component_count, "component")
+        << ", " << counted(g.region_count, "region") << ", " << byte_size(g.bytes) << "\n";
+  }
+  for (const auto& s : info.sections) out << "  " << s.name << ": " << byte_size(s.bytes) << "\n";
+  for (const auto& [key, value] : info.metadata) out << "  " << key << " = " << value << "\n";
+}
+
+int run(const Options& o) {
+  Console console(o.console);
+  FileBytes file;
+  Status status = FileBytes::read(o.input, file);
+  if (!status.ok()) return fail(console, status);
+  const std::string_view text = file.view();
+  std::unique_ptr<Decoder> decoder;
+  status = Decoder::open({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, {}, decoder);
+  if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
+  if (o.json) {
+    using Json = nlohmann::ordered_json;
+    // Metadata come from the file: bytes that are not UTF-8 are replaced.
+    std::cout
+        << to_json(o.input, decoder->info()).dump(2, ' ', false, Json::error_handler_t::replace)
+        << "\n";
+  } else {
+    print_text(o.input, decoder->info(), std::cout);
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("info", "Show what a .reeb file holds");
+  auto o = std::make_shared<Options>();
+  command->add_option("INPUT", o->input, "The .reeb file; - = standard input")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", o->json, "As JSON");
+  add_console_options(*command, o->console);
+  command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,29 @@
+#include "tools/interrupt.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "tools/io/output_set.h"
+
+namespace reeb::tools {
+
+void remove_output_on_interrupt() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  // Blocked here, hence in every thread to come; one thread waits for them and may take locks and
+  // touch files, which a signal handler must not.
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] {
+    int received = 0;
+    sigwait(&signals, &received);
+    OutputSet::abandon_all();
+    std::fputs("\nreeb: interrupted; nothing was written\n", stderr);
+    _exit(kExitInterrupted);
+  }).detach();
+}
+
+}  // namespace reeb::tools

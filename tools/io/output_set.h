@@ -1,0 +1,56 @@
+// Files that appear together or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "bitstream/status.h"
+
+namespace reeb::tools {
+
+/// Writes files under temporary names beside their targets and renames them all in `commit`. What
+/// is not committed is removed with the set, together with the folders it created; `abandon_all`
+/// does the same for every living set, for use on the way out of an interrupted program. One set is
+/// used by one thread except for `write`, which any number of threads may call.
+///
+/// A target that exists and is no regular file (/dev/null, a pipe) is written directly.
+class OutputSet {
+ public:
+  explicit OutputSet(bool overwrite) : overwrite_(overwrite) {}
+  ~OutputSet();
+  OutputSet(const OutputSet&) = delete;
+  OutputSet& operator=(const OutputSet&) = delete;
+
+  /// Announces targets: fails where one exists and may not be overwritten, and creates their
+  /// folders.
+  Status prepare(const std::vector<std::filesystem::path>& targets);
+
+  /// Writes, or continues, the file that will be `target`, a path given to `prepare` before.
+  Status write(const std::filesystem::path& target, std::string_view bytes);
+
+  /// Gives all files their names.
+  Status commit();
+
+  /// Removes what all living sets have written so far, and blocks every later use of them.
+  static void abandon_all();
+
+ private:
+  struct File {
+    std::filesystem::path target;
+    std::filesystem::path written;  ///< the temporary name; the target where it is written directly
+    bool started = false;
+  };
+  Status create_folder(const std::filesystem::path& folder);
+  File* find(const std::filesystem::path& target);
+  void discard();
+
+  bool overwrite_;
+  std::vector<File> files_;
+  std::vector<std::filesystem::path> created_folders_;  ///< outermost first
+};
+
+/// Why `target` must not be written; ok where it may.
+Status check_target(const std::filesystem::path& target, bool overwrite);
+
+}  // namespace reeb::tools

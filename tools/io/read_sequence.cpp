@@ -1,0 +1,179 @@
+#include "tools/io/read_sequence.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "tools/io/file_bytes.h"
+#include "tools/io/frame_list.h"
+#include "tools/io/mesh_file.h"
+#include "tools/io/point_cache.h"
+#include "tools/parallel.h"
+#include "tools/text.h"
+
+namespace reeb::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One frame on its way from a file to a shot.
+struct Slot {
+  Status status;
+  FileBytes bytes;  ///< `mesh.face_text` points here
+  MeshFrame mesh;
+};
+
+void read_frame(const fs::path& path, const MeshReference* reference, Slot& slot) {
+  slot.status = FileBytes::read(path, slot.bytes);
+  if (!slot.status.ok()) return;
+  slot.status = read_mesh(slot.bytes.view(), *mesh_format(path), reference, slot.mesh);
+  if (!slot.status.ok()) {
+    slot.status = Status(slot.status.code(), path.string() + ": " + slot.status.message());
+  }
+}
+
+/// Reads files in batches on several threads and strings them into shots.
+class FrameReader {
+ public:
+  FrameReader(const std::vector<fs::path>& files, const ReadOptions& options, Sequence& out,
+              ReadReport& report)
+      : files_(files), options_(options), out_(out), report_(report) {}
+
+  Status run() {
+    // The first frame alone, so that all others have a reference to be compared with.
+    Status status = read_batch(0, 1);
+    const size_t batch = size_t{8} * thread_count(options_.threads);
+    for (size_t first = 1; first < files_.size() && status.ok(); first += batch) {
+      status = read_batch(first, std::min(batch, files_.size() - first));
+    }
+    return status;
+  }
+
+ private:
+  Status read_batch(size_t first, size_t count) {
+    std::vector<Slot> slots(count);
+    const std::shared_ptr<const MeshReference> compared = reference_;
+    parallel_for(count, options_.threads,
+                 [&](size_t i) { read_frame(files_[first + i], compared.get(), slots[i]); });
+    for (size_t i = 0; i < count; ++i) {
+      if (!slots[i].status.ok()) return frame_failure(slots[i].status, first + i);
+      append(slots[i].mesh, compared.get(), first + i);
+      slots[i] = Slot();
+    }
+    if (options_.progress) {
+      options_.progress(static_cast<double>(first + count) / static_cast<double>(files_.size()));
+    }
+    return {};
+  }
+
+  Status frame_failure(const Status& status, size_t frame) const {
+    if (files_.size() == 1) return status;
+    return {status.code(), "frame " + grouped(frame + 1) + ": " + status.message()};
+  }
+
+  // `compared` is the reference at the time of reading; an earlier frame of the batch may have
+  // replaced it.
+  void append(MeshFrame& mesh, const MeshReference* compared, size_t frame) {
+    if (!mesh.same_connectivity || compared != reference_.get()) {
+      if (mesh.same_connectivity) mesh.connectivity = compared->connectivity;
+      if (!reference_ || mesh.connectivity != reference_->connectivity) start_shot(mesh, frame);
+    }
+    Shot& shot = out_.shots.back();
+    if (frame == 0) shot.positions.reserve(files_.size() * mesh.positions.size());
+    shot.positions.insert(shot.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    ++shot.frame_count;
+  }
+
+  void start_shot(MeshFrame& mesh, size_t frame) {
+    const std::string name = files_[frame].string();
+    if (reference_) {
+      report_.notes.push_back(name + ": " + difference(mesh.connectivity) +
+                              "; a new reference starts here");
+    } else if (!mesh.dropped.empty()) {
+      report_.notes.push_back(name + ": only positions and faces are kept, not: " + mesh.dropped);
+    }
+    reference_ = std::make_shared<MeshReference>(
+        MeshReference{mesh.connectivity, std::string(mesh.face_text)});
+    first_of_shot_ = frame;
+    out_.shots.emplace_back().connectivity = std::move(mesh.connectivity);
+  }
+
+  std::string difference(const Connectivity& now) const {
+    const Connectivity& before = reference_->connectivity;
+    const std::string where = ", frame " + grouped(first_of_shot_ + 1) + " has ";
+    if (now.vertex_count != before.vertex_count) {
+      return counted(now.vertex_count, "vertex") + where + grouped(before.vertex_count);
+    }
+    if (now.face_sizes.size() != before.face_sizes.size()) {
+      return counted(now.face_sizes.size(), "face") + where + grouped(before.face_sizes.size());
+    }
+    return "the faces differ from frame " + grouped(first_of_shot_ + 1);
+  }
+
+  const std::vector<fs::path>& files_;
+  const ReadOptions& options_;
+  Sequence& out_;
+  ReadReport& report_;
+  std::shared_ptr<const MeshReference> reference_;  ///< of the current shot
+  size_t first_of_shot_ = 0;
+};
+
+Status read_cached(const InputFiles& input, Sequence& out, ReadReport& report) {
+  Slot slot;
+  read_frame(input.meshes[0], nullptr, slot);
+  if (!slot.status.ok()) return slot.status;
+  PointCache cache;
+  if (Status status = read_point_cache(input.cache, cache); !status.ok()) return status;
+  if (cache.point_count != slot.mesh.connectivity.vertex_count) {
+    return Status::corrupt(input.cache.string() + ": " + counted(cache.point_count, "point") +
+                           ", " + input.meshes[0].string() + " has " +
+                           grouped(slot.mesh.connectivity.vertex_count) +
+                           " vertices; name the mesh the cache was exported from");
+  }
+  Shot& shot = out.shots.emplace_back();
+  shot.connectivity = std::move(slot.mesh.connectivity);
+  shot.frame_count = cache.frame_count;
+  shot.positions = std::move(cache.positions);
+  out.frame_rate = cache.frame_rate;
+  out.start_time = cache.start_time;
+  if (cache.frames_per_sample != 1) {
+    out.metadata[kSampleRateKey] = brief(cache.frames_per_sample, 9);
+  }
+  report.notes = std::move(cache.notes);
+  return {};
+}
+
+Status read_stream(const fs::path& path, const ReadOptions& options, Sequence& out,
+                   ReadReport& report) {
+  FileBytes file;
+  if (Status status = FileBytes::read(path, file); !status.ok()) return status;
+  const std::string_view text = file.view();
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
+  const DecodeOptions decode_options{.limits = {}, .threads = options.threads};
+  std::unique_ptr<Decoder> decoder;
+  Status status = Decoder::open(bytes, decode_options, decoder);
+  if (status.ok()) {
+    report.stream = decoder->info();
+    status = decode_sequence(bytes, decode_options, out);
+  }
+  if (!status.ok()) return {status.code(), path.string() + ": " + status.message()};
+  if (report.stream->truncated) {
+    report.notes.push_back(path.string() + ": truncated; " +
+                           counted(report.stream->frame_count, "frame") +
+                           " before the cut are read");
+  }
+  return {};
+}
+
+}  // namespace
+
+Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& options,
+                     Sequence& out, ReadReport& report) {
+  out = Sequence();
+  InputFiles input;
+  if (Status status = find_input(inputs, options.allow_gaps, input); !status.ok()) return status;
+  if (!input.stream.empty()) return read_stream(input.stream, options, out, report);
+  if (!input.cache.empty()) return read_cached(input, out, report);
+  return FrameReader(input.meshes, options, out, report).run();
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,32 @@
+// Sequences in any format the tools read.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.h"
+#include "codec/common/sequence.h"
+#include "codec/dec/decoder.h"
+
+namespace reeb::tools {
+
+struct ReadOptions {
+  unsigned threads = 0;     ///< 0 = all cores
+  bool allow_gaps = false;  ///< a missing frame number is not an error
+  /// Called with the done part in [0,1]. May be empty.
+  std::function<void(double)> progress = {};
+};
+
+struct ReadReport {
+  std::vector<std::string> notes;    ///< sentences for the user, e.g. where a new reference starts
+  std::optional<StreamInfo> stream;  ///< filled where the input is a `.reeb` stream
+};
+
+/// Reads what `inputs` name (see `find_input`). A new shot starts where the connectivity or the
+/// vertex count changes. The message of a failure names the file, the frame and the remedy.
+Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& options,
+                     Sequence& out, ReadReport& report);
+
+}  // namespace reeb::tools

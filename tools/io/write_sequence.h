@@ -1,0 +1,51 @@
+// Sequences into any format the tools write, chosen by the output name.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.h"
+#include "codec/common/sequence.h"
+
+namespace reeb::tools {
+
+/// Frames to write, asked for one after another.
+struct FrameSource {
+  std::vector<uint32_t> numbers;  ///< the number of each frame in its file name, in order of output
+  double frame_rate = 0;          ///< frames per second; 0 where unknown
+  double start_time = 0;          ///< of the first frame written, in frames
+  double frames_per_sample = 1;   ///< see PointCache
+  /// Gives the faces and positions ([vertex][xyz]) of output frame i; the pointer stays valid until
+  /// all is written.
+  std::function<Status(uint32_t i, const Connectivity*& connectivity,
+                       std::vector<float>& positions)>
+      frame;
+};
+
+/// All frames of `sequence`, numbered from 1. The sequence must outlive the source.
+FrameSource source_of(const Sequence& sequence);
+
+struct WriteOptions {
+  bool overwrite = false;
+  unsigned threads = 0;  ///< 0 = all cores
+  /// Called with the done part in [0,1]. May be empty.
+  std::function<void(double)> progress = {};
+};
+
+/// What an output name stands for.
+struct OutputName {
+  enum class Kind { kFrames, kSingleMesh, kCache };
+  Kind kind = Kind::kFrames;
+  std::string pattern;  ///< kFrames: with a %d field; kSingleMesh, kCache: the file
+};
+
+/// Names: `out/f_%04d.obj` (also .ply, .off, .stl), a folder (frame_%04d.obj in it), `out.pc2` or
+/// `out.mdd` (their faces go to `out.obj`), `out.obj` for one frame.
+Status parse_output_name(const std::string& output, uint32_t frame_count, OutputName& out);
+
+/// Writes all frames, or nothing at all. Missing folders are created.
+Status write_sequence(const FrameSource& source, const std::string& output,
+                      const WriteOptions& options);
+
+}  // namespace reeb::tools
