@@ -20,7 +20,7 @@ struct Options {
   /// Eigenpairs of the Laplace-Beltrami operator per piece, the constant one counted; 2 .. 1000.
   uint32_t eigenpairs = 60;
   /// Diffusion time, in units of 1 / (first non-zero eigenvalue); 0.001 .. 10.
-  double diffusion_time = 0.1;
+  double diffusion_time = 0.2;
   /// An extremity must stand out by this part of the range of its distance function; 0 .. 1.
   double feature_persistence = 0.04;
   /// Radius in which two extrema are the same extremity, in units of sqrt(area); 0 .. 1.
@@ -29,7 +29,7 @@ struct Options {
   double graph_persistence = 0.08;
   /// Interval of the function, from a branching into an arc, in which the border looks for a
   /// concavity; 0 .. 1.
-  double border_window = 0.12;
+  double border_window = 0.08;
   /// The body where arcs meet is a region of its own from this part of the vertices of its piece
   /// on; 0 .. 1.
   double min_body = 0.02;
