@@ -38,7 +38,9 @@ class MotionModel {
   MotionModel(uint32_t regions, uint32_t components) : regions_(regions), transforms_(components) {}
 
   uint32_t regions() const { return regions_; }
+  void set_components(uint32_t components) { transforms_.resize(components); }
   std::vector<RegionBinding>& bindings() { return bindings_; }
+  const std::vector<RegionBinding>& bindings() const { return bindings_; }
   /// Transforms of component k, one a region; empty before they are set or coded.
   std::vector<Transform>& transforms(uint32_t component) { return transforms_[component]; }
 

@@ -12,7 +12,8 @@ constexpr double kRelativeRidge =
 }  // namespace
 
 BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transform,
-                       const std::vector<std::vector<float>>& planes, double q)
+                       const std::vector<std::vector<float>>& planes,
+                       const std::vector<uint32_t>& row_of, double q)
     : signal_(signal) {
   const auto k = static_cast<Eigen::Index>(planes.size());
   const Eigen::Index rows = signal.trajectories.rows();
@@ -23,8 +24,10 @@ BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transfo
     const Eigen::Index count = std::min(kRowBlock, rows - begin);
     Eigen::MatrixXd block(count, k);
     for (Eigen::Index c = 0; c < k; ++c) {
-      block.col(c) =
-          Eigen::Map<const Eigen::VectorXf>(planes[c].data() + begin, count).cast<double>();
+      for (Eigen::Index i = 0; i < count; ++i) {
+        block(i, c) = static_cast<double>(
+            planes[static_cast<size_t>(c)][row_of[static_cast<size_t>(begin + i)]]);
+      }
     }
     gram_.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
     projection_.noalias() +=
@@ -39,12 +42,11 @@ BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transfo
   basis_ = normal.llt().solve(right).transpose();
 }
 
-double BasisRefit::squared_error(const GroupSynthesis& synthesis, const float origin[3]) const {
+double BasisRefit::squared_error(const GroupSynthesis& synthesis) const {
   double error = signal_.energy;
   for (Eigen::Index row = 0; row < signal_.mean.size(); ++row) {
     const auto r = static_cast<size_t>(row);
-    const double offset =
-        synthesis.mean(r) - static_cast<double>(origin[r % 3]) - signal_.mean[row];
+    const double offset = synthesis.mean(r) - signal_.mean[row];
     const Eigen::VectorXd u =
         Eigen::Map<const Eigen::VectorXf>(synthesis.basis(r), gram_.rows()).cast<double>();
     error += u.dot(gram_ * u) - 2 * u.dot(projection_.col(row));

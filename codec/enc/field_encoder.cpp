@@ -47,11 +47,10 @@ int32_t FieldEncoder::decide(double residual, double step, double importance,
   return residual < 0 ? -static_cast<int32_t>(best) : static_cast<int32_t>(best);
 }
 
-double FieldEncoder::code_component(const float* target, double scale) {
+double FieldEncoder::code_component(const float* target) {
   const auto quantize = [&](uint32_t row, float prediction, uint32_t step,
                             MagnitudeModel::Bins& bins) {
-    const double residual =
-        static_cast<double>(target[row]) * scale - static_cast<double>(prediction);
+    const double residual = static_cast<double>(target[row]) - static_cast<double>(prediction);
     const int32_t n = decide(residual, step / 65536.0, importance_[row], bins);
     return field_.model().code(recorder_, bins, n);
   };
@@ -59,7 +58,7 @@ double FieldEncoder::code_component(const float* target, double scale) {
   const std::vector<float>& plane = field_.plane(field_.component_count() - 1);
   double error = 0;
   for (size_t row = 0; row < plane.size(); ++row) {
-    const double d = static_cast<double>(plane[row]) - static_cast<double>(target[row]) * scale;
+    const double d = static_cast<double>(plane[row]) - static_cast<double>(target[row]);
     error += d * d;
   }
   return error;

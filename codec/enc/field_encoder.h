@@ -17,8 +17,8 @@ class FieldEncoder {
   /// row's prediction mass to the power `mass_exponent`.
   FieldEncoder(Field& field, const PredictionGraph& graph, double lambda, double mass_exponent);
 
-  /// Codes `target[row] * scale`; returns the sum of squared errors.
-  double code_component(const float* target, double scale);
+  /// Codes `target[row]`; returns the sum of squared errors.
+  double code_component(const float* target);
 
   const DecisionRecorder& recorder() const { return recorder_; }
 

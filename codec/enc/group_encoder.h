@@ -8,6 +8,8 @@
 #include "codec/common/synthesis.h"
 #include "codec/enc/group_signal.h"
 #include "codec/enc/karhunen_loeve.h"
+#include "codec/enc/motion_fit.h"
+#include "codec/enc/surface_context.h"
 
 namespace reeb {
 
@@ -15,6 +17,8 @@ namespace reeb {
 struct CodedGroup {
   double q = 0;
   uint32_t component_count = 0;
+  uint32_t region_count = 0;
+  std::vector<uint8_t> motion;
   std::vector<uint8_t> coefficients;
   std::vector<uint8_t> basis;
   GroupSynthesis synthesis;  ///< what the decoder will have
@@ -22,29 +26,27 @@ struct CodedGroup {
       0;  ///< over all vertices, frames and axes, but for the rounding to binary32
 };
 
-/// What a group needs to know of its reference mesh.
-struct SurfaceContext {
-  const SurfaceGraph& surface;
-  GridPoints points;  ///< decoded reference positions
-  const float* origin;
-};
-
 class GroupEncoder {
  public:
-  /// The surface's parts must outlive the encoder.
-  GroupEncoder(const SurfaceContext& surface, GroupSignal signal, bool fast_profile,
-               unsigned threads);
+  GroupEncoder(GroupSignal signal, bool fast_profile, unsigned threads);
+  GroupEncoder(const GroupEncoder&) = delete;
+  GroupEncoder& operator=(const GroupEncoder&) = delete;
 
-  /// Encodes with quantization step q > 0, world units.
-  CodedGroup encode(double q);
+  /// Encodes on a reference mesh with quantization step q > 0, world units. `motion` may be null.
+  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion);
 
   const GroupSignal& signal() const { return signal_; }
+  KarhunenLoeve& transform() { return transform_; }
 
  private:
-  std::vector<std::vector<float>> encode_coefficients(double q, CodedGroup& out);
-  void encode_basis(const std::vector<std::vector<float>>& planes, CodedGroup& out);
+  using Planes = std::vector<std::vector<float>>;
 
-  SurfaceContext surface_;
+  Planes encode_coefficients(const SurfaceContext& surface, const MotionFit* motion,
+                             CodedGroup& out);
+  void encode_motion(const SurfaceContext& surface, const MotionFit& motion, CodedGroup& out,
+                     Planes& planes);
+  void encode_basis(const SurfaceContext& surface, const Planes& planes, CodedGroup& out);
+
   GroupSignal signal_;
   TemporalGraph temporal_;
   KarhunenLoeve transform_;

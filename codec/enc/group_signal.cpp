@@ -2,28 +2,22 @@
 
 namespace reeb {
 
-GroupSignal make_group_signal(const Shot& shot, uint32_t first, uint32_t count,
-                              std::span<const uint32_t> output, const float origin[3]) {
-  const auto vertices = static_cast<Eigen::Index>(output.size());
+GroupSignal make_group_signal(const Shot& shot, uint32_t first, uint32_t count) {
+  const auto vertices = static_cast<Eigen::Index>(shot.connectivity.vertex_count);
   GroupSignal out;
   out.frames = count;
-  out.mean.setZero(3 * count);
-  out.trajectories.resize(vertices, 3 * count);
+  out.mean.setZero(3 * Eigen::Index{count});
+  out.trajectories.resize(vertices, 3 * Eigen::Index{count});
+  using Frame = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
   for (uint32_t t = 0; t < count; ++t) {
-    const std::span<const float> frame = shot.frame(first + t);
-    for (int a = 0; a < 3; ++a) {
-      double sum = 0;
-      for (const uint32_t v : output) sum += static_cast<double>(frame[size_t{v} * 3 + a]);
-      const double mean = sum / static_cast<double>(vertices);
-      out.mean[3 * t + a] = mean - static_cast<double>(origin[a]);
-      for (Eigen::Index r = 0; r < vertices; ++r) {
-        const double x = static_cast<double>(frame[size_t{output[r]} * 3 + a]) - mean;
-        out.trajectories(r, 3 * t + a) = static_cast<float>(x);
-      }
-    }
+    const Eigen::Map<const Frame> frame(shot.frame(first + t).data(), vertices, 3);
+    const Eigen::RowVector3d mean = frame.cast<double>().colwise().mean();
+    out.mean.segment<3>(3 * Eigen::Index{t}) = mean;
+    out.trajectories.middleCols<3>(3 * Eigen::Index{t}) =
+        (frame.cast<double>().rowwise() - mean).cast<float>();
   }
-  for (Eigen::Index r = 0; r < vertices; ++r) {
-    out.energy += out.trajectories.row(r).cast<double>().squaredNorm();
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    out.energy += out.trajectories.row(v).cast<double>().squaredNorm();
   }
   return out;
 }

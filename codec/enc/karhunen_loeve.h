@@ -18,7 +18,8 @@ class KarhunenLoeve {
   const Eigen::MatrixXd& basis() const { return basis_; }
   uint32_t size() const { return static_cast<uint32_t>(basis_.cols()); }
 
-  /// Coefficients of component k: V values, world units. Computed when first asked for.
+  /// Coefficients of component k: V values in input order, world units. Computed when first asked
+  /// for.
   const float* coefficients(uint32_t k);
 
  private:

@@ -205,7 +205,7 @@ bool survives(const Connectivity& input, std::span<const int32_t> grid,
 
 Status encode_reference(const Connectivity& connectivity, std::span<const int32_t> grid,
                         const ReferenceOptions& options, std::vector<uint8_t>& bytes,
-                        ReferenceMesh& decoded) {
+                        ReferenceMesh& decoded, std::vector<uint32_t>& input_index) {
   bytes.clear();
   if (Status s = check_input(connectivity, grid); !s.ok()) return s;
   const DracoPlan plan = Planner(connectivity).plan();
@@ -234,6 +234,8 @@ Status encode_reference(const Connectivity& connectivity, std::span<const int32_
   if (!survives(connectivity, grid, coding, options.reorder, decoded)) {
     return Status::invalid("reference mesh: it does not survive its coding");
   }
+  input_index.resize(coding.size());
+  for (uint32_t v = 0; v < coding.size(); ++v) input_index[coding[v]] = v;
   return {};
 }
 

@@ -88,7 +88,8 @@ void check_triangles(const ReferenceMesh& decoded) {
 void check_round_trip(const Mesh& m, bool reorder) {
   Bytes bytes;
   ReferenceMesh from_encoder, decoded;
-  const Status encoded = encode_reference(m.connectivity, m.grid, {reorder}, bytes, from_encoder);
+  std::vector<uint32_t> input_index;
+  const Status encoded = encode_reference(m.connectivity, m.grid, {reorder}, bytes, from_encoder, input_index);
   INFO(encoded.message());
   REQUIRE(encoded.ok());
   REQUIRE(decode_reference(bytes, {}, decoded).ok());
@@ -234,7 +235,8 @@ TEST_CASE("input that is no mesh is refused", "[reference]") {
   Bytes bytes;
   ReferenceMesh decoded;
   const auto code = [&](const Mesh& m) {
-    return encode_reference(m.connectivity, m.grid, {}, bytes, decoded).code();
+    std::vector<uint32_t> input_index;
+    return encode_reference(m.connectivity, m.grid, {}, bytes, decoded, input_index).code();
   };
   CHECK(code(make_mesh(0, {})) == StatusCode::kInvalidArgument);
   CHECK(code(make_mesh(3, {{0, 1, 3}})) == StatusCode::kInvalidArgument);
@@ -253,7 +255,8 @@ TEST_CASE("limits bind before decoding", "[reference]") {
   const Mesh m = make_mesh(49, torus(7, false));
   Bytes bytes;
   ReferenceMesh decoded;
-  REQUIRE(encode_reference(m.connectivity, m.grid, {}, bytes, decoded).ok());
+  std::vector<uint32_t> input_index;
+  REQUIRE(encode_reference(m.connectivity, m.grid, {}, bytes, decoded, input_index).ok());
   const auto code = [&](const Limits& limits) {
     return decode_reference(bytes, limits, decoded).code();
   };
@@ -270,7 +273,8 @@ TEST_CASE("cut and altered bytes are errors or meshes, nothing else", "[referenc
   const Mesh m = make_mesh(42, faces, 8);
   Bytes bytes;
   ReferenceMesh decoded;
-  REQUIRE(encode_reference(m.connectivity, m.grid, {}, bytes, decoded).ok());
+  std::vector<uint32_t> input_index;
+  REQUIRE(encode_reference(m.connectivity, m.grid, {}, bytes, decoded, input_index).ok());
   const Limits limits = {1000, 1000, 1, 1 << 24};
   for (size_t n = 0; n < bytes.size(); ++n) {
     CHECK_FALSE(decode_reference(std::span(bytes).first(n), limits, decoded).ok());

@@ -1,0 +1,48 @@
+#include "codec/enc/encoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "codec/enc/sequence_encoder.h"
+
+namespace reeb {
+
+namespace {
+
+Status check_shot(const Shot& shot, size_t index) {
+  const std::string name = "shot " + std::to_string(index + 1);
+  const Connectivity& c = shot.connectivity;
+  if (c.vertex_count == 0 || shot.frame_count == 0) return Status::invalid(name + " is empty");
+  if (shot.positions.size() != size_t{c.vertex_count} * 3 * shot.frame_count) {
+    return Status::invalid(name + ": the number of positions does not match");
+  }
+  const bool finite = std::all_of(shot.positions.begin(), shot.positions.end(),
+                                  [](float x) { return std::isfinite(x); });
+  return finite ? Status() : Status::invalid(name + " has a position that is not finite");
+}
+
+Status check(const Sequence& sequence, const EncodeOptions& options) {
+  if (sequence.shots.empty()) return Status::invalid("there is nothing to encode");
+  if (!(options.target_value > 0) || !std::isfinite(options.target_value)) {
+    return Status::invalid("the target must be a number above 0");
+  }
+  if (options.group_length > kMaxGroupFrames) return Status::invalid("group_length is above 65536");
+  if (options.regions > 1024) return Status::invalid("regions is above 1024");
+  for (size_t i = 0; i < sequence.shots.size(); ++i) {
+    if (Status s = check_shot(sequence.shots[i], i); !s.ok()) return s;
+  }
+  return {};
+}
+
+}  // namespace
+
+Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
+              EncodeStats& stats) {
+  out.clear();
+  stats = {};
+  if (Status s = check(sequence, options); !s.ok()) return s;
+  return SequenceEncoder(sequence, options).run(out, stats);
+}
+
+}  // namespace reeb

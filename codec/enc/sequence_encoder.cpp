@@ -1,0 +1,246 @@
+#include "codec/enc/sequence_encoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "codec/common/parallel.h"
+#include "codec/enc/step_search.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr double kGridPerError =
+    2.0;  ///< first guess of the grid step, in RMS errors per coordinate
+constexpr double kGuessedPrecision =
+    2e-4;  ///< of the extent: error expected where the target is a size
+constexpr double kRoughTolerance = 0.05;
+constexpr double kTolerance = 0.008;
+constexpr int kRoughTrials = 6;
+constexpr int kTrials = 10;
+constexpr uint32_t kRegionCandidates[] = {12, 40};
+
+bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
+
+std::vector<MetadataEntry> metadata_of(const Sequence& sequence) {
+  std::vector<MetadataEntry> out;
+  for (const auto& [key, value] : sequence.metadata) out.push_back({key, value});
+  return out;
+}
+
+/// The nearest that the search came to a target that it did not meet.
+Status unreachable(const EncodeStats& nearest) {
+  return Status::invalid("the target is out of reach; nearest: KG " + std::to_string(nearest.kg) +
+                         " %, largest error " + std::to_string(nearest.max_error) + ", " +
+                         std::to_string(nearest.bytes) + " bytes");
+}
+
+}  // namespace
+
+SequenceEncoder::SequenceEncoder(const Sequence& sequence, const EncodeOptions& options)
+    : sequence_(sequence), options_(options) {
+  uint32_t first_frame = 0;
+  for (const Shot& shot : sequence.shots) {
+    shots_.push_back(std::make_unique<ShotEncoder>(shot, first_frame, options,
+                                                   resolve_threads(options.threads)));
+    first_frame += shot.frame_count;
+    energy_ += shots_.back()->energy();
+    vertex_frames_ += shots_.back()->vertex_frames();
+  }
+}
+
+bool SequenceEncoder::advance(double part) {
+  done_ = std::max(done_, part);
+  return !options_.progress || options_.progress(done_);
+}
+
+double SequenceEncoder::excess_of(const Attempt& a) const {
+  double measured = 0;
+  switch (options_.target) {
+    case Target::kKg:
+      measured = energy_ > 0 ? 100 * std::sqrt(a.squared_error / energy_) : 0;
+      break;
+    case Target::kMaxError:
+      measured = measure(a).largest;
+      break;
+    case Target::kBpvf:
+      measured = 8 * static_cast<double>(a.bytes.size()) / vertex_frames_;
+      break;
+    case Target::kSize:
+      measured = static_cast<double>(a.bytes.size());
+      break;
+  }
+  return measured > 0 ? std::log(measured / options_.target_value) : -1e3;
+}
+
+Status SequenceEncoder::attempt(double q, Attempt& out) {
+  out = {};
+  out.q = q;
+  ContainerWriter writer(out.bytes);
+  SequenceHeader header;
+  header.total_frames = sequence_.frame_count();
+  header.shot_count = static_cast<uint32_t>(shots_.size());
+  header.frame_rate = sequence_.frame_rate;
+  header.start_time = sequence_.start_time;
+  if (Status s = writer.begin(header); !s.ok()) return s;
+  if (Status s = writer.metadata(metadata_of(sequence_)); !s.ok()) return s;
+  for (uint32_t i = 0; i < shots_.size(); ++i) {
+    const std::vector<CodedGroup>& groups = out.shots.emplace_back(shots_[i]->encode(q));
+    for (const CodedGroup& g : groups) out.squared_error += g.squared_error;
+    if (Status s = shots_[i]->write(i, groups, writer); !s.ok()) return s;
+  }
+  if (Status s = writer.finish(); !s.ok()) return s;
+  out.excess = excess_of(out);
+  if (!advance(done_ + (1 - done_) * 0.15))
+    return {StatusCode::kCancelled, "encoding was cancelled"};
+  return {};
+}
+
+Status SequenceEncoder::search(double tolerance, int max_trials) {
+  Status status;
+  std::vector<Attempt> attempts;
+  const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials};
+  const StepTrial found = search_step(best_.q, search_options, [&](double q) {
+    Attempt a;
+    if (status.ok()) status = attempt(q, a);
+    attempts.push_back(std::move(a));
+    return status.ok() ? attempts.back().excess : 0;
+  });
+  if (!status.ok()) return status;
+  for (Attempt& a : attempts) {
+    if (a.q != found.q) continue;
+    for (const Attempt& other : attempts) {
+      const double bits =
+          8 * (static_cast<double>(a.bytes.size()) - static_cast<double>(other.bytes.size()));
+      if (std::abs(bits) > 64)
+        slope_ = std::max(0.0, (other.squared_error - a.squared_error) / bits);
+    }
+    best_ = std::move(a);
+    break;
+  }
+  return {};
+}
+
+double SequenceEncoder::coordinate_error() const {
+  return std::sqrt(best_.squared_error / (3 * vertex_frames_));
+}
+
+Status SequenceEncoder::set_grids(double error) {
+  for (auto& shot : shots_) {
+    if (Status s = shot->set_grid(kGridPerError * error); !s.ok()) return s;
+  }
+  return {};
+}
+
+void SequenceEncoder::set_regions(uint32_t count) {
+  for (auto& shot : shots_) shot->set_regions(count);
+}
+
+Status SequenceEncoder::try_setting(bool& kept) {
+  Attempt a;
+  if (Status s = attempt(best_.q, a); !s.ok()) return s;
+  const double slope = slope_ > 0 ? slope_ : 0.1 * best_.q * best_.q;
+  const auto cost = [slope](const Attempt& x) {
+    return x.squared_error + slope * 8 * static_cast<double>(x.bytes.size());
+  };
+  kept = cost(a) < cost(best_);
+  if (kept) best_ = std::move(a);
+  return {};
+}
+
+Status SequenceEncoder::refine_grids() {
+  for (const int direction : {-1, 1}) {
+    bool moved = false;
+    for (bool kept = true; kept;) {
+      std::vector<uint32_t> before;
+      bool changed = false;
+      for (auto& shot : shots_) {
+        before.push_back(shot->grid_bits());
+        if (Status s = shot->set_grid_bits(before.back() + direction); !s.ok()) return s;
+        changed = changed || shot->grid_bits() != before.back();
+      }
+      kept = false;
+      if (changed) {
+        if (Status s = try_setting(kept); !s.ok()) return s;
+      }
+      moved = moved || kept;
+      for (size_t i = 0; i < shots_.size() && !kept; ++i) {
+        if (Status s = shots_[i]->set_grid_bits(before[i]); !s.ok()) return s;
+      }
+    }
+    if (moved) break;
+  }
+  return {};
+}
+
+Status SequenceEncoder::choose_regions() {
+  if (options_.regions >= 0) return {};
+  uint32_t chosen = 0;
+  for (const uint32_t candidate : kRegionCandidates) {
+    set_regions(candidate);
+    bool kept = false;
+    if (Status s = try_setting(kept); !s.ok()) return s;
+    if (!kept) break;
+    chosen = candidate;
+  }
+  set_regions(chosen);
+  return {};
+}
+
+ErrorSums SequenceEncoder::measure(const Attempt& a) const {
+  ErrorSums sums;
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    const ErrorSums shot = shots_[i]->measure(a.shots[i]);
+    sums.squared += shot.squared;
+    sums.largest = std::max(sums.largest, shot.largest);
+  }
+  return sums;
+}
+
+EncodeStats SequenceEncoder::stats() const {
+  const ErrorSums sums = measure(best_);
+  EncodeStats out;
+  out.bytes = best_.bytes.size();
+  out.bpvf = 8 * static_cast<double>(out.bytes) / vertex_frames_;
+  out.kg = energy_ > 0 ? 100 * std::sqrt(sums.squared / energy_) : 0;
+  out.rmse = std::sqrt(sums.squared / vertex_frames_);
+  out.max_error = sums.largest;
+  ContainerReader container;
+  if (container.parse(best_.bytes, Limits{}).ok()) {
+    for (const auto& [name, bytes] : container.sections)
+      out.sections.push_back({name, 8.0 * static_cast<double>(bytes)});
+  }
+  for (const auto& shot : shots_) {
+    if (shot->regions() > 0)
+      out.notes.push_back("motion model with " + std::to_string(shot->regions()) + " regions");
+  }
+  return out;
+}
+
+Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
+  const double extent = std::sqrt(energy_ / std::max(1.0, 3 * vertex_frames_));
+  double expected = kGuessedPrecision * extent;
+  if (options_.target == Target::kKg) expected = options_.target_value / 100 * extent;
+  if (options_.target == Target::kMaxError) expected = options_.target_value / 8;
+  if (Status s = set_grids(expected); !s.ok()) return s;
+  if (options_.regions > 0) set_regions(static_cast<uint32_t>(options_.regions));
+
+  // A coefficient's error of q/sqrt(12) spreads over the frames; most coefficients are not sent at
+  // all.
+  best_.q =
+      expected > 0 ? 2 * expected * std::sqrt(static_cast<double>(sequence_.frame_count())) : 1e-6;
+  if (Status s = search(kRoughTolerance, kRoughTrials); !s.ok()) return s;
+  if (!is_error(options_.target)) {
+    if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
+  }
+  if (Status s = refine_grids(); !s.ok()) return s;
+  if (Status s = choose_regions(); !s.ok()) return s;
+  if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
+  stats = this->stats();
+  if (best_.excess > 0) return unreachable(stats);
+  out = std::move(best_.bytes);
+  return {};
+}
+
+}  // namespace reeb

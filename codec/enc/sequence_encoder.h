@@ -1,0 +1,61 @@
+// Encoder of a whole sequence: the search for the cheapest stream that meets the target.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bitstream/status.h"
+#include "codec/enc/encoder.h"
+#include "codec/enc/shot_encoder.h"
+
+namespace reeb {
+
+/// One encoding of the whole sequence with one quantization step.
+struct Attempt {
+  double q = 0;
+  std::vector<std::vector<CodedGroup>> shots;
+  std::vector<uint8_t> bytes;  ///< the file
+  double squared_error = 0;    ///< over all vertices, frames and axes
+  double excess = 0;           ///< ln(measured / wanted): above 0 the target is missed
+};
+
+class SequenceEncoder {
+ public:
+  /// `sequence` must outlive the encoder and satisfy the pre-conditions of `encode`.
+  SequenceEncoder(const Sequence& sequence, const EncodeOptions& options);
+
+  Status run(std::vector<uint8_t>& out, EncodeStats& stats);
+
+ private:
+  /// An attempt with the current grids and regions.
+  Status attempt(double q, Attempt& out);
+  double excess_of(const Attempt& a) const;
+  ErrorSums measure(const Attempt& a) const;
+  EncodeStats stats() const;
+
+  /// Finds the step that meets the target with the current settings; the result is in `best_`.
+  Status search(double tolerance, int max_trials);
+  Status refine_grids();
+  Status choose_regions();
+  /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
+  Status try_setting(bool& kept);
+
+  Status set_grids(double coordinate_error);
+  void set_regions(uint32_t count);
+  double coordinate_error() const;
+  bool advance(double part);
+
+  const Sequence& sequence_;
+  const EncodeOptions& options_;
+  std::vector<std::unique_ptr<ShotEncoder>> shots_;
+  double energy_ = 0;
+  double vertex_frames_ = 0;
+  Attempt best_;
+  double slope_ =
+      0;  ///< squared error that one bit buys, measured between two attempts; 0 while unknown
+  double done_ = 0;
+};
+
+}  // namespace reeb

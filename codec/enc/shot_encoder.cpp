@@ -1,0 +1,173 @@
+#include "codec/enc/shot_encoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "segmentation/segmentation.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kLeastBits = 9;
+constexpr uint32_t kMostBits = 16;
+constexpr uint32_t kLongestGroup = 512;  ///< frames, unless asked for
+constexpr uint64_t kGroupSamples =
+    100'000'000;  ///< vertices times frames, to bound the encoder's memory
+
+uint32_t default_group_length(const Shot& shot) {
+  const uint64_t by_memory = std::max<uint64_t>(1, kGroupSamples / shot.connectivity.vertex_count);
+  return static_cast<uint32_t>(std::min<uint64_t>(kLongestGroup, by_memory));
+}
+
+/// Lengths as equal as can be, none above `longest`.
+std::vector<uint32_t> split_evenly(uint32_t frames, uint32_t longest) {
+  const uint32_t parts = (frames + longest - 1) / longest;
+  std::vector<uint32_t> lengths(parts, frames / parts);
+  for (uint32_t i = 0; i < frames % parts; ++i) ++lengths[i];
+  return lengths;
+}
+
+/// Groups of the length asked for, the last one shorter.
+std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
+  std::vector<uint32_t> lengths(frames / length, length);
+  if (frames % length != 0) lengths.push_back(frames % length);
+  return lengths;
+}
+
+}  // namespace
+
+ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
+                         unsigned threads)
+    : shot_(shot),
+      first_frame_(first_frame),
+      reorder_(options.reorder),
+      fast_profile_(options.fast_profile) {
+  const std::vector<uint32_t> lengths =
+      options.group_length > 0 ? split_by(shot.frame_count, options.group_length)
+                               : split_evenly(shot.frame_count, default_group_length(shot));
+  uint32_t first = 0;
+  for (const uint32_t length : lengths) {
+    GroupSignal signal = make_group_signal(shot, first, length);
+    energy_ += signal.energy;
+    groups_.push_back({first,
+                       std::make_unique<GroupEncoder>(std::move(signal), fast_profile_, threads),
+                       nullptr});
+    first += length;
+  }
+}
+
+double ShotEncoder::vertex_frames() const {
+  return static_cast<double>(shot_.connectivity.vertex_count) *
+         static_cast<double>(shot_.frame_count);
+}
+
+double ShotEncoder::longest_side() const {
+  const std::span<const float> xyz = shot_.frame(0);
+  double side = 0;
+  for (size_t a = 0; a < 3; ++a) {
+    float low = xyz[a];
+    float high = xyz[a];
+    for (size_t i = a; i < xyz.size(); i += 3) {
+      low = std::min(low, xyz[i]);
+      high = std::max(high, xyz[i]);
+    }
+    side = std::max(side, static_cast<double>(high) - static_cast<double>(low));
+  }
+  return side;
+}
+
+Status ShotEncoder::set_grid(double step) {
+  const double wanted =
+      step > 0 ? std::ceil(std::log2(longest_side() / step + 1)) : double{kLeastBits};
+  return set_grid_bits(
+      static_cast<uint32_t>(std::clamp(wanted, double{kLeastBits}, double{kMostBits})));
+}
+
+Status ShotEncoder::set_grid_bits(uint32_t bits) {
+  const uint32_t allowed = std::clamp(bits, kLeastBits, kMostBits);
+  if (allowed == grid_bits_) return {};
+  SurfaceContext surface;
+  if (Status s = make_surface_context(shot_, allowed, reorder_, surface); !s.ok()) return s;
+  surface_ = std::move(surface);
+  grid_bits_ = allowed;
+  fit_motion();
+  return {};
+}
+
+void ShotEncoder::make_partitions() {
+  std::vector<uint32_t> triangles;
+  for (const uint32_t v : surface_.mesh.triangles) triangles.push_back(surface_.input_of[v]);
+  const segmentation::Result regions = segmentation::segment(shot_.frame(0), triangles);
+  const segmentation::MotionInput input{shot_.frame(0), triangles, shot_.positions};
+  partitions_ = std::make_unique<segmentation::MotionPartitions>(input, regions);
+}
+
+void ShotEncoder::set_regions(uint32_t count) {
+  if (count > 0 && partitions_ == nullptr) make_partitions();
+  regions_ = count > 0 ? std::clamp(count, 1u, partitions_->finest()) : 0;
+  fit_motion();
+}
+
+void ShotEncoder::fit_motion() {
+  std::vector<uint32_t> labels;
+  if (regions_ > 0) labels = partitions_->labels(regions_);
+  for (Group& group : groups_) {
+    group.motion.reset();
+    if (regions_ == 0) continue;
+    group.motion =
+        std::make_unique<MotionFit>(surface_, group.encoder->transform(), labels, regions_);
+  }
+}
+
+std::vector<CodedGroup> ShotEncoder::encode(double q) {
+  std::vector<CodedGroup> out;
+  for (Group& group : groups_)
+    out.push_back(group.encoder->encode(surface_, q, group.motion.get()));
+  return out;
+}
+
+Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& coded,
+                          ContainerWriter& writer) const {
+  ReferenceHeader reference = surface_.header;
+  reference.shot = shot_index;
+  reference.first_frame = first_frame_;
+  if (Status s = writer.reference(reference, surface_.bytes); !s.ok()) return s;
+  for (size_t i = 0; i < coded.size(); ++i) {
+    GroupHeader header;
+    header.first_frame = first_frame_ + groups_[i].first_frame;
+    header.frame_count = groups_[i].encoder->signal().frames;
+    header.shot = shot_index;
+    header.profile = fast_profile_ ? Profile::kFast : Profile::kMain;
+    header.component_count = coded[i].component_count;
+    header.quantization_step = static_cast<float>(coded[i].q);
+    header.region_count = coded[i].region_count;
+    Status s = writer.group(header, coded[i].motion, coded[i].coefficients, coded[i].basis);
+    if (!s.ok()) return s;
+  }
+  return {};
+}
+
+ErrorSums ShotEncoder::measure(const std::vector<CodedGroup>& coded) const {
+  std::vector<float> frame(shot_.frame(0).size());
+  ErrorSums sums;
+  for (size_t i = 0; i < coded.size(); ++i) {
+    for (uint32_t t = 0; t < coded[i].synthesis.frame_count(); ++t) {
+      coded[i].synthesis.frame(t, surface_.input, frame.data(), 3);
+      const std::span<const float> original = shot_.frame(groups_[i].first_frame + t);
+      for (size_t v = 0; v < frame.size(); v += 3) {
+        double square = 0;
+        for (size_t a = 0; a < 3; ++a) {
+          const double d = static_cast<double>(frame[v + a]) - static_cast<double>(original[v + a]);
+          square += d * d;
+        }
+        sums.squared += square;
+        sums.largest = std::max(sums.largest, std::sqrt(square));
+      }
+    }
+  }
+  return sums;
+}
+
+}  // namespace reeb

@@ -1,0 +1,72 @@
+// Encoder of one shot: its reference mesh, its groups, and the settings that a trial may change.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bitstream/container.h"
+#include "codec/enc/encoder.h"
+#include "codec/enc/group_encoder.h"
+#include "segmentation/motion.h"
+
+namespace reeb {
+
+/// Sums over decoded frames.
+struct ErrorSums {
+  double squared = 0;  ///< of the distances of the vertices from where the input has them
+  double largest = 0;  ///< distance
+};
+
+class ShotEncoder {
+ public:
+  /// `shot` must outlive the encoder; `first_frame` is its place in the sequence.
+  ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
+              unsigned threads);
+
+  /// Codes the reference mesh on a grid whose step is about `step` (world units); 9 to 16 bits.
+  Status set_grid(double step);
+  uint32_t grid_bits() const { return grid_bits_; }
+  Status set_grid_bits(uint32_t bits);
+
+  /// Gives the motion model `count` regions, or as many as the shape allows; 0 for none.
+  void set_regions(uint32_t count);
+  uint32_t regions() const { return regions_; }
+
+  /// Encodes every group with quantization step q.
+  std::vector<CodedGroup> encode(double q);
+
+  /// Appends the reference mesh and the groups.
+  Status write(uint32_t shot_index, const std::vector<CodedGroup>& coded,
+               ContainerWriter& writer) const;
+
+  /// Compares what the decoder will have, to the bit, with the input.
+  ErrorSums measure(const std::vector<CodedGroup>& coded) const;
+
+  double energy() const {
+    return energy_;
+  }                              ///< sum of squares about the mean of each frame and axis
+  double vertex_frames() const;  ///< vertices times frames
+  double longest_side() const;   ///< of the first frame's bounding box
+
+ private:
+  struct Group {
+    uint32_t first_frame;  ///< in the shot
+    std::unique_ptr<GroupEncoder> encoder;
+    std::unique_ptr<MotionFit> motion;
+  };
+  void fit_motion();
+  void make_partitions();
+
+  const Shot& shot_;
+  uint32_t first_frame_;
+  bool reorder_;
+  bool fast_profile_;
+  uint32_t grid_bits_ = 0;
+  uint32_t regions_ = 0;
+  SurfaceContext surface_;
+  std::vector<Group> groups_;
+  std::unique_ptr<segmentation::MotionPartitions> partitions_;  ///< made when first needed
+  double energy_ = 0;
+};
+
+}  // namespace reeb

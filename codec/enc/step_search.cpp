@@ -1,0 +1,77 @@
+#include "codec/enc/step_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reeb {
+
+namespace {
+
+constexpr double kErrorSlope = 0.9;  ///< d ln(error) / d ln(q), typically
+constexpr double kSizeSlope = -0.7;
+constexpr double kLongestStep = 2.0;  ///< in ln q
+
+/// Trials so far, as a function of ln q; `sign` makes it an increasing one.
+class Bracket {
+ public:
+  Bracket(bool grows, double aim)
+      : sign_(grows ? 1 : -1), slope_(grows ? kErrorSlope : -kSizeSlope), aim_(aim) {}
+
+  void add(double x, double excess) {
+    const double y = sign_ * (excess - aim_);
+    if (have_last_ && std::abs(x - last_x_) > 1e-9) {
+      const double secant = (y - last_y_) / (x - last_x_);
+      slope_ = std::clamp(secant, 0.15, 4.0);
+    }
+    last_x_ = x;
+    last_y_ = y;
+    have_last_ = true;
+    (y < 0 ? low_ : high_) = y < 0 ? std::max(low_, x) : std::min(high_, x);
+  }
+
+  double next() const {
+    const double step = std::clamp(-last_y_ / slope_, -kLongestStep, kLongestStep);
+    const double x = last_x_ + step;
+    const bool bracketed = std::isfinite(low_) && std::isfinite(high_);
+    if (bracketed && (x <= low_ || x >= high_)) return 0.5 * (low_ + high_);
+    return x;
+  }
+
+  bool exhausted() const { return high_ - low_ < 1e-4; }
+
+ private:
+  double sign_;
+  double slope_;
+  double aim_;
+  double low_ = -std::numeric_limits<double>::infinity();
+  double high_ = std::numeric_limits<double>::infinity();
+  double last_x_ = 0;
+  double last_y_ = 0;
+  bool have_last_ = false;
+};
+
+bool better(const StepTrial& a, const StepTrial& b) {
+  if ((a.excess <= 0) != (b.excess <= 0)) return a.excess <= 0;
+  return std::abs(a.excess) < std::abs(b.excess);
+}
+
+}  // namespace
+
+StepTrial search_step(double q0, const StepSearchOptions& options,
+                      const std::function<double(double)>& measure) {
+  Bracket bracket(options.grows, -options.tolerance / 2);
+  StepTrial best;
+  double x = std::log(q0);
+  for (int i = 0; i < options.max_trials; ++i) {
+    const StepTrial trial{std::exp(x), measure(std::exp(x))};
+    if (i == 0 || better(trial, best)) best = trial;
+    if (trial.excess <= 0 && trial.excess >= -options.tolerance) break;
+    bracket.add(x, trial.excess);
+    if (bracket.exhausted()) break;
+    x = bracket.next();
+  }
+  return best;
+}
+
+}  // namespace reeb

@@ -1,0 +1,27 @@
+// Search for the quantization step that meets a target.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace reeb {
+
+/// What a trial gave, against the target.
+struct StepTrial {
+  double q = 0;
+  /// ln(measured / wanted): above 0 the target is missed.
+  double excess = 0;
+};
+
+struct StepSearchOptions {
+  bool grows = true;         ///< the measure grows with q (an error) or falls (a size)
+  double tolerance = 0.008;  ///< a trial within [-tolerance, 0] of the target ends the search
+  int max_trials = 12;
+};
+
+/// Runs `measure(q)` (which returns the excess) from `q0` on, by secants within a bracket. Returns
+/// the trial nearest below the target, or the one nearest above where none is below.
+StepTrial search_step(double q0, const StepSearchOptions& options,
+                      const std::function<double(double)>& measure);
+
+}  // namespace reeb
