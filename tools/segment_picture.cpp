@@ -198,10 +198,14 @@ class SceneWriter {
     for (const auto& node : skeleton.nodes) sphere(placed(node), 2 * radius);
     for (size_t a = 0; a < skeleton.arcs.size(); ++a) {
       const auto& arc = subject_.graph->arcs[a];
-      const Vector middle = placed(skeleton.arcs[a]);
-      cylinder(placed(skeleton.nodes[arc.from]), middle, radius);
-      sphere(middle, radius);
-      cylinder(middle, placed(skeleton.nodes[arc.to]), radius);
+      Vector last = placed(skeleton.nodes[arc.from]);
+      for (const auto& point : skeleton.arcs[a]) {
+        const Vector next = placed(point);
+        cylinder(last, next, radius);
+        sphere(next, radius);
+        last = next;
+      }
+      cylinder(last, placed(skeleton.nodes[arc.to]), radius);
     }
   }
 

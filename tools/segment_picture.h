@@ -19,7 +19,7 @@ std::array<double, 3> region_colour(uint32_t region);
 /// One mesh of the picture.
 struct PictureFrame {
   std::span<const float> positions;  ///< [vertex][x, y, z], finite
-  segmentation::Skeleton skeleton;
+  segmentation::SkeletonPose skeleton;
 };
 
 /// What all meshes of the picture have in common.

@@ -268,6 +268,19 @@ TEST_CASE("frame rate and start time come from the input or the command line") {
   CHECK(info["start_time"] == -2.5);
 }
 
+TEST_CASE("a picture of one sequence or two") {
+  const Encoded files;
+  const std::string png = files / "p.png";
+  REQUIRE(
+      run_reeb({"picture", files.cache, "-o", png, "--frames", "1,6", "--tile", "60"}).exit_code ==
+      kExitDone);
+  CHECK(read_text(png).substr(1, 3) == "PNG");
+  CHECK(run_reeb({"picture", files.cache, files.stream, "-o", png}).exit_code == kExitFailed);
+  CHECK(run_reeb({"picture", files.cache, files.stream, "-f", "-o", png}).exit_code == kExitDone);
+  CHECK_THAT(run_reeb({"picture", files.cache, "-f", "-o", png, "--frames", "7"}).err,
+             Contains("frame 7 does not exist"));
+}
+
 TEST_CASE("an interrupted command leaves nothing and ends with 130") {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TempFolder folder;

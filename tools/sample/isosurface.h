@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "tools/sample/vec3.h"
+#include "tools/vec3.h"
 
 namespace reeb::tools {
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "tools/sample/sample.h"
-#include "tools/sample/vec3.h"
+#include "tools/vec3.h"
 
 namespace reeb::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "tools/sample/vec3.h"
+#include "tools/vec3.h"
 
 namespace reeb::tools {
 namespace {

@@ -1,0 +1,210 @@
+#include "tools/picture/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reeb::tools {
+namespace {
+
+Vec3 point(std::span<const float> positions, size_t v) {
+  return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+}
+
+/// Calls body(a, b, c) for the triangles of all faces.
+template <typename Body>
+void for_each_triangle(const Connectivity& connectivity, const Body& body) {
+  const uint32_t* corner = connectivity.corners.data();
+  for (const uint32_t size : connectivity.face_sizes) {
+    for (uint32_t i = 2; i < size; ++i) body(corner[0], corner[i - 1], corner[i]);
+    corner += size;
+  }
+}
+
+constexpr double kCreaseCosine = 0.77;  ///< faces that meet at more than 40 degrees keep their edge
+
+using Triangle = std::array<uint32_t, 3>;
+
+/// Normals at the corners of triangles: of all triangles at the vertex that are not across a
+/// crease.
+class CornerNormals {
+ public:
+  CornerNormals(const std::vector<Triangle>& triangles, std::span<const float> positions,
+                uint32_t vertex_count)
+      : triangles_(triangles), first_(size_t{vertex_count} + 1) {
+    for (const Triangle& t : triangles) {
+      const Vec3 a = point(positions, t[0]);
+      // Twice the area long, so that large faces count more.
+      areas_.push_back(cross(point(positions, t[1]) - a, point(positions, t[2]) - a));
+      for (const uint32_t v : t) ++first_[size_t{v} + 1];
+    }
+    for (size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    around_.resize(triangles.size() * 3);
+    std::vector<size_t> next(first_.begin(), first_.end() - 1);
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      for (const uint32_t v : triangles[i]) around_[next[v]++] = i;
+    }
+  }
+
+  Vec3 at(size_t triangle, size_t corner) const {
+    const uint32_t v = triangles_[triangle][corner];
+    const Vec3 own = normalized(areas_[triangle]);
+    Vec3 sum;
+    for (size_t i = first_[v]; i < first_[size_t{v} + 1]; ++i) {
+      const Vec3& other = areas_[around_[i]];
+      if (dot(own, other) >= kCreaseCosine * length(other)) sum += other;
+    }
+    return sum;
+  }
+
+ private:
+  const std::vector<Triangle>& triangles_;
+  std::vector<Vec3> areas_;
+  std::vector<size_t> first_;   ///< of each vertex, in `around_`
+  std::vector<size_t> around_;  ///< triangles at each vertex
+};
+
+/// A vertex in the picture.
+struct Corner {
+  Vec3 at;      ///< pixels right and down, depth towards the eye
+  Vec3 normal;  ///< in the axes of the camera
+  Vec3 colour;
+};
+
+Vec3 blend(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<double, 3>& w) {
+  return a * w[0] + b * w[1] + c * w[2];
+}
+
+class Rasterizer {
+ public:
+  explicit Rasterizer(Image& out)
+      : out_(out), depth_(out.pixels.size(), -std::numeric_limits<double>::infinity()) {}
+
+  void draw(const Corner& a, const Corner& b, const Corner& c) {
+    const double area = edge(a.at, b.at, c.at);
+    if (!(std::abs(area) > 1e-12)) return;
+    const auto [x_min, x_max] = std::minmax({a.at.x, b.at.x, c.at.x});
+    const auto [y_min, y_max] = std::minmax({a.at.y, b.at.y, c.at.y});
+    const int left = static_cast<int>(std::clamp(x_min, 0.0, 1.0 * out_.width));
+    const int right = static_cast<int>(std::clamp(x_max + 1, 0.0, 1.0 * out_.width));
+    const int top = static_cast<int>(std::clamp(y_min, 0.0, 1.0 * out_.height));
+    const int bottom = static_cast<int>(std::clamp(y_max + 1, 0.0, 1.0 * out_.height));
+    for (int y = top; y < bottom; ++y) {
+      for (int x = left; x < right; ++x) {
+        const Vec3 p{x + 0.5, y + 0.5, 0};
+        const std::array<double, 3> w{edge(b.at, c.at, p) / area, edge(c.at, a.at, p) / area,
+                                      edge(a.at, b.at, p) / area};
+        if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) draw_pixel(x, y, a, b, c, w);
+      }
+    }
+  }
+
+ private:
+  static double edge(const Vec3& a, const Vec3& b, const Vec3& p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+  }
+
+  void draw_pixel(int x, int y, const Corner& a, const Corner& b, const Corner& c,
+                  const std::array<double, 3>& w) {
+    const double z = w[0] * a.at.z + w[1] * b.at.z + w[2] * c.at.z;
+    double& nearest = depth_[static_cast<size_t>(y) * out_.width + x];
+    if (z <= nearest) return;
+    nearest = z;
+    const Vec3 colour = blend(a.colour, b.colour, c.colour, w);
+    const double light = shade(normalized(blend(a.normal, b.normal, c.normal, w)));
+    const auto channel = [&](double value) {
+      return static_cast<uint8_t>(std::clamp(value * light, 0.0, 255.0));
+    };
+    out_.at(x, y) = {channel(colour.x), channel(colour.y), channel(colour.z)};
+  }
+
+  // A key light from the upper left, a weak one from the eye, some light from everywhere.
+  static double shade(Vec3 normal) {
+    if (normal.z < 0) normal = normal * -1;
+    const Vec3 key = normalized({-0.5, 0.75, 0.6});
+    const double lambert = std::max(0.0, dot(normal, key));
+    return 0.32 + 0.58 * lambert + 0.18 * normal.z;
+  }
+
+  Image& out_;
+  std::vector<double> depth_;  ///< larger is nearer to the eye
+};
+
+}  // namespace
+
+Camera Camera::orbit(double azimuth, double elevation, bool z_up) {
+  const double radian = std::acos(-1.0) / 180;
+  const double ca = std::cos(azimuth * radian);
+  const double sa = std::sin(azimuth * radian);
+  const double ce = std::cos(elevation * radian);
+  const double se = std::sin(elevation * radian);
+  Camera camera{{ca, 0, -sa}, {-sa * se, ce, -ca * se}, {sa * ce, se, ca * ce}};
+  if (z_up) {
+    for (Vec3* const axis : {&camera.right, &camera.up, &camera.back}) {
+      *axis = {axis->x, -axis->z, axis->y};
+    }
+  }
+  return camera;
+}
+
+void draw_mesh(const Connectivity& connectivity, std::span<const float> positions,
+               std::span<const Colour> colours, const Camera& camera, const Framing& framing,
+               Image& out) {
+  std::vector<Triangle> triangles;
+  for_each_triangle(connectivity, [&](uint32_t a, uint32_t b, uint32_t c) {
+    triangles.push_back({a, b, c});
+  });
+  const CornerNormals normals(triangles, positions, connectivity.vertex_count);
+  Rasterizer rasterizer(out);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    std::array<Corner, 3> corners;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = triangles[i][k];
+      const Vec3 p = (point(positions, v) - framing.centre) * framing.pixels_per_unit;
+      const Vec3 n = normals.at(i, k);
+      const Colour& c = colours.size() == 1 ? colours[0] : colours[v];
+      corners[k] = {{0.5 * out.width + dot(p, camera.right), 0.5 * out.height - dot(p, camera.up),
+                     dot(p, camera.back)},
+                    {dot(n, camera.right), dot(n, camera.up), dot(n, camera.back)},
+                    {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}};
+    }
+    rasterizer.draw(corners[0], corners[1], corners[2]);
+  }
+}
+
+Vec3 box_centre(std::span<const float> positions) {
+  Vec3 low = point(positions, 0);
+  Vec3 high = low;
+  for (size_t v = 1; v < positions.size() / 3; ++v) {
+    const Vec3 p = point(positions, v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return (low + high) * 0.5;
+}
+
+std::array<double, 2> half_extent(std::span<const float> positions, const Camera& camera,
+                                  const Vec3& centre) {
+  std::array<double, 2> extent{};
+  for (size_t v = 0; v < positions.size() / 3; ++v) {
+    const Vec3 p = point(positions, v) - centre;
+    extent[0] = std::max(extent[0], std::abs(dot(p, camera.right)));
+    extent[1] = std::max(extent[1], std::abs(dot(p, camera.up)));
+  }
+  return extent;
+}
+
+Colour error_colour(double value) {
+  static constexpr std::array<std::array<double, 3>, 4> kRamp{
+      {{49, 85, 164}, {226, 232, 236}, {246, 205, 82}, {196, 38, 46}}};
+  const double place = std::clamp(value, 0.0, 1.0) * (kRamp.size() - 1);
+  const size_t step = std::min(static_cast<size_t>(place), kRamp.size() - 2);
+  const double part = place - static_cast<double>(step);
+  Colour out{};
+  for (size_t k = 0; k < 3; ++k) {
+    out[k] = static_cast<uint8_t>(kRamp[step][k] + part * (kRamp[step + 1][k] - kRamp[step][k]));
+  }
+  return out;
+}
+
+}  // namespace reeb::tools
