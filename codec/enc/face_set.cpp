@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "codec/common/faces.h"
+
 namespace reeb {
 
 FaceSet::FaceSet(const Connectivity& faces) : faces_(faces) {
@@ -17,19 +19,6 @@ std::span<const uint32_t> FaceSet::corners(uint32_t face) const {
   return {faces_.corners.data() + first_corner_[face], faces_.face_sizes[face]};
 }
 
-// Rotations are only compared where the smallest corner occurs more than once.
-FaceSet::Cycle FaceSet::canonical(std::span<const uint32_t> corners) {
-  const uint32_t lowest = *std::min_element(corners.begin(), corners.end());
-  Cycle best;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] != lowest) continue;
-    Cycle cycle(corners.begin(), corners.end());
-    std::rotate(cycle.begin(), cycle.begin() + static_cast<long>(i), cycle.end());
-    if (best.empty() || cycle < best) best = std::move(cycle);
-  }
-  return best;
-}
-
 std::vector<uint32_t> FaceSet::regular() const {
   std::vector<uint32_t> out;
   std::set<Cycle> seen;
@@ -38,7 +27,7 @@ std::vector<uint32_t> FaceSet::regular() const {
     std::sort(sorted.begin(), sorted.end());
     const bool distinct = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
     if (sorted.size() < 3 || !distinct) continue;
-    if (seen.insert(canonical(corners(f))).second) out.push_back(f);
+    if (seen.insert(canonical_cycle(corners(f))).second) out.push_back(f);
   }
   return out;
 }
@@ -49,14 +38,14 @@ std::vector<uint32_t> FaceSet::owners(const std::vector<uint32_t>& faces, const 
   for (const uint32_t f : faces) {
     const auto c = corners(f);
     for (size_t i = 1; i + 1 < c.size(); ++i) {
-      fans.emplace(canonical(std::array{c[0], c[i], c[i + 1]}), f);
+      fans.emplace(canonical_cycle(std::array{c[0], c[i], c[i + 1]}), f);
     }
   }
   std::vector<uint32_t> owner(mesh.triangles.size() / 3, std::numeric_limits<uint32_t>::max());
   for (size_t t = 0; t < owner.size(); ++t) {
     const uint32_t* p = &mesh.triangles[t * 3];
     const auto at =
-        fans.find(canonical(std::array{vertex_of[p[0]], vertex_of[p[1]], vertex_of[p[2]]}));
+        fans.find(canonical_cycle(std::array{vertex_of[p[0]], vertex_of[p[1]], vertex_of[p[2]]}));
     if (at == fans.end()) continue;
     owner[t] = at->second;
     fans.erase(at);
@@ -69,12 +58,12 @@ std::vector<uint32_t> FaceSet::missing(const std::vector<uint32_t>& faces,
   std::multiset<Cycle> there;
   size_t corner = 0;
   for (const uint32_t size : found.sizes) {
-    there.insert(canonical(std::span(found.corners).subspan(corner, size)));
+    there.insert(canonical_cycle(std::span(found.corners).subspan(corner, size)));
     corner += size;
   }
   std::vector<uint32_t> out;
   for (const uint32_t f : faces) {
-    const auto at = there.find(canonical(corners(f)));
+    const auto at = there.find(canonical_cycle(corners(f)));
     if (at == there.end()) {
       out.push_back(f);
     } else {
@@ -82,18 +71,6 @@ std::vector<uint32_t> FaceSet::missing(const std::vector<uint32_t>& faces,
     }
   }
   return there.empty() || !out.empty() ? out : faces;
-}
-
-std::vector<FaceSet::Cycle> FaceSet::sorted_cycles() const {
-  std::vector<Cycle> out;
-  for (uint32_t f = 0; f < faces_.face_sizes.size(); ++f) out.push_back(canonical(corners(f)));
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-bool FaceSet::same_faces(const FaceSet& other) const {
-  return faces_.vertex_count == other.faces_.vertex_count &&
-         sorted_cycles() == other.sorted_cycles();
 }
 
 }  // namespace reeb

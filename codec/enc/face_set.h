@@ -31,13 +31,8 @@ class FaceSet {
   /// Those of `faces` that `found` lacks, ascending; all of `faces` where `found` holds others.
   std::vector<uint32_t> missing(const std::vector<uint32_t>& faces, const Polygons& found) const;
 
-  bool same_faces(const FaceSet& other) const;
-
  private:
   using Cycle = std::vector<uint32_t>;
-  /// Corners with the smallest rotation first.
-  static Cycle canonical(std::span<const uint32_t> corners);
-  std::vector<Cycle> sorted_cycles() const;
 
   const Connectivity& faces_;
   std::vector<size_t> first_corner_;

@@ -8,6 +8,7 @@
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/connectivity.h"
+#include "codec/common/faces.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -198,7 +199,7 @@ bool survives(const Connectivity& input, std::span<const int32_t> grid,
   if (reorder) {
     for (uint32_t& v : expected.corners) v = coding[v];
   }
-  return FaceSet(expected).same_faces(FaceSet(decoded.connectivity));
+  return same_faces(expected, decoded.connectivity);
 }
 
 }  // namespace
