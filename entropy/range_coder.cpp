@@ -48,8 +48,11 @@ std::vector<uint8_t> BinaryEncoder::finish() {
       break;
     }
   }
+  // A decoder that reads these decisions shifts in this many bytes behind its first four; with
+  // fewer it would take the code for a cut one.
+  const uint64_t least = bytes_.size() + cache_size_;
   for (int i = 0; i < 5; ++i) shift_low();
-  while (!bytes_.empty() && bytes_.back() == 0) bytes_.pop_back();
+  while (bytes_.size() > least && bytes_.back() == 0) bytes_.pop_back();
   return std::move(bytes_);
 }
 

@@ -21,7 +21,7 @@ class BinaryEncoder {
   bool code(bool bit, Probability p1);
 
   /// Ends the code with as few bytes as tell it from any other (a decoder reads zeros past the
-  /// end).
+  /// end) and keep `BinaryDecoder::overrun` false.
   std::vector<uint8_t> finish();
 
  private:
