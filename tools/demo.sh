@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# The main job from nothing: makes an animated creature, encodes, decodes, compares and draws it into ./demo.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+.ci/setup
+cmake -S . -B build -G Ninja >/dev/null
+cmake --build build --target reeb
+reeb=build/tools/reeb
+
+rm -rf demo
+"$reeb" sample creature -o demo/frames/frame_%04d.obj
+"$reeb" encode 'demo/frames/*.obj' -o demo/creature.reeb
+"$reeb" info demo/creature.reeb
+"$reeb" decode demo/creature.reeb -o demo/decoded/frame_%04d.obj
+"$reeb" compare demo/frames demo/decoded --tolerance 0.05
+"$reeb" picture demo/frames demo/creature.reeb -o demo/creature.png
+du -sh demo/frames demo/creature.reeb
+echo "look at demo/creature.png"
