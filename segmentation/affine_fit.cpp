@@ -14,6 +14,8 @@ constexpr double kRidge = 1e-9;
 // Principal components are dropped once they hold less than this part of the motion's energy in
 // all.
 constexpr double kDroppedEnergy = 1e-7;
+// What is left of the motion below this part of its energy is rounding of the input.
+constexpr double kRoundingEnergy = 1e-12;
 
 Eigen::LDLT<Eigen::Matrix4d> factorised(const Eigen::Matrix4d& gram) {
   return (gram + kRidge * gram.trace() * Eigen::Matrix4d::Identity()).ldlt();
@@ -49,6 +51,7 @@ MotionSpace motion_space(const MotionInput& input, uint32_t max_frames) {
   if (sampled == 0) return space;
   space.scale = static_cast<double>(frames) / static_cast<double>(sampled);
   all.colwise() -= all.rowwise().mean().eval();
+  const double rounding = kRoundingEnergy * all.squaredNorm();
   const Eigen::Matrix4d gram = space.corners * space.corners.transpose();
   const AffineMap map = factorised(gram).solve(space.corners * all.transpose());
   all -= map.transpose() * space.corners;
@@ -58,7 +61,7 @@ MotionSpace motion_space(const MotionInput& input, uint32_t max_frames) {
   double dropped = 0;
   while (kept > 0) {
     dropped += std::max(solver.eigenvalues()[all.rows() - kept], 0.0);
-    if (dropped > kDroppedEnergy * total) break;
+    if (dropped > std::max(kDroppedEnergy * total, rounding)) break;
     --kept;
   }
   space.rows = solver.eigenvectors().rightCols(kept).transpose() * all;

@@ -1,90 +1,158 @@
 #include "segmentation/skeleton.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "segmentation/surface.h"
 
 namespace reeb::segmentation {
 namespace {
 
-using Vector = std::array<float, 3>;
+// Bands of an arc's region across the way from one node to the other.
+constexpr size_t kBands = 6;
 
-// A running mean of points.
-class Mean {
- public:
-  void add(std::span<const float> frame, uint32_t v) {
-    for (size_t i = 0; i < 3; ++i) sum_[i] += frame[3 * static_cast<size_t>(v) + i];
-    ++count_;
+Position mean_of(const std::vector<uint32_t>& vertices, std::span<const float> frame) {
+  std::array<double, 3> sum = {};
+  for (const size_t v : vertices) {
+    for (size_t i = 0; i < 3; ++i) sum[i] += frame[3 * v + i];
   }
-  bool empty() const { return count_ == 0; }
-  Vector value() const {
-    Vector mean = {};
-    for (size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum_[i] / count_);
-    return mean;
+  Position mean = {};
+  const double count = static_cast<double>(std::max<size_t>(vertices.size(), 1));
+  for (size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i] / count);
+  return mean;
+}
+
+// Finds the parts of the mesh that belong to nodes and arcs.
+class Rigger {
+ public:
+  Rigger(const Result& segmentation, std::span<const float> positions,
+         std::span<const uint32_t> triangles)
+      : graph_(segmentation.graph),
+        labels_(segmentation.labels),
+        pieces_(split_pieces(positions, triangles, true)),
+        regions_at_(graph_.nodes.size()) {
+    for (const Arc& arc : graph_.arcs) {
+      regions_at_[arc.from].push_back(arc.region);
+      regions_at_[arc.to].push_back(arc.region);
+    }
+    for (uint32_t n = 0; n < regions_at_.size(); ++n) {
+      if (graph_.nodes[n].region != kNoRegion) regions_at_[n].push_back(graph_.nodes[n].region);
+    }
+  }
+
+  /// The middle of the borders of the regions that meet at a node; its own vertex where there is no
+  /// border.
+  std::vector<uint32_t> node_vertices(uint32_t node) const {
+    std::vector<uint32_t> vertices;
+    for (const uint32_t region : regions_at_[node]) {
+      const auto border = border_vertices(region, node);
+      vertices.insert(vertices.end(), border.begin(), border.end());
+    }
+    if (vertices.empty()) vertices.push_back(graph_.nodes[node].vertex);
+    return vertices;
+  }
+
+  /// The region of an arc in bands from its first node to its second.
+  std::vector<std::vector<uint32_t>> arc_bands(const Arc& arc) const {
+    const auto from = distances(arc.region, arc.from), to = distances(arc.region, arc.to);
+    std::vector<std::vector<uint32_t>> bands(kBands);
+    const uint32_t piece = pieces_.piece[graph_.nodes[arc.from].vertex];
+    for (uint32_t v = 0; piece != kNone && v < from.size(); ++v) {
+      if (!std::isfinite(from[v]) || !std::isfinite(to[v])) continue;
+      const double way = from[v] + to[v];
+      const double share = way > 0 ? from[v] / way : 0.5;
+      const size_t band = std::min(kBands - 1, static_cast<size_t>(share * kBands));
+      bands[band].push_back(pieces_.original[piece][v]);
+    }
+    std::erase_if(bands, [](const auto& band) { return band.empty(); });
+    return bands;
   }
 
  private:
-  std::array<double, 3> sum_ = {};
-  double count_ = 0;
-};
+  uint32_t piece_of(uint32_t node) const { return pieces_.piece[graph_.nodes[node].vertex]; }
 
-// For each node, the regions that meet there.
-std::vector<std::vector<uint32_t>> regions_at_nodes(const Graph& graph) {
-  std::vector<std::vector<uint32_t>> regions(graph.nodes.size());
-  for (const Arc& arc : graph.arcs) {
-    regions[arc.from].push_back(arc.region);
-    if (arc.to != arc.from) regions[arc.to].push_back(arc.region);
-  }
-  return regions;
-}
-
-// Means of the triangles that hold two or more of the regions of a node.
-std::vector<Mean> border_means(const Result& segmentation, std::span<const uint32_t> triangles,
-                               std::span<const float> frame) {
-  const auto regions = regions_at_nodes(segmentation.graph);
-  std::vector<std::vector<uint32_t>> nodes_of(segmentation.region_count);
-  for (uint32_t n = 0; n < regions.size(); ++n) {
-    for (const uint32_t region : regions[n]) nodes_of[region].push_back(n);
-  }
-  const std::vector<uint32_t>& labels = segmentation.labels;
-  std::vector<Mean> means(regions.size());
-  for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
-    const auto corners = triangles.subspan(t, 3);
-    if (*std::max_element(corners.begin(), corners.end()) >= labels.size()) continue;
-    const uint32_t a = labels[corners[0]], b = labels[corners[1]], c = labels[corners[2]];
-    if (a == b && b == c) continue;
-    const uint32_t other = b != a ? b : c;
-    for (const uint32_t n : nodes_of[a]) {
-      const auto& around = regions[n];
-      if (std::find(around.begin(), around.end(), other) == around.end()) continue;
-      for (const uint32_t v : corners) means[n].add(frame, v);
+  // Vertices of a region next to another region at the node.
+  std::vector<uint32_t> border_vertices(uint32_t region, uint32_t node) const {
+    const uint32_t piece = piece_of(node);
+    if (piece == kNone) return {};
+    const auto& around = regions_at_[node];
+    std::vector<uint32_t> vertices;
+    for (const auto [a, b] : pieces_.surfaces[piece].edges) {
+      const uint32_t u = pieces_.original[piece][a], w = pieces_.original[piece][b];
+      for (const auto& [inside, outside] : {std::pair(u, w), std::pair(w, u)}) {
+        if (labels_[inside] != region || labels_[outside] == region) continue;
+        if (std::count(around.begin(), around.end(), labels_[outside]) > 0) {
+          vertices.push_back(inside);
+        }
+      }
     }
+    return vertices;
   }
-  return means;
-}
+
+  // Distance along edges within a region from its end at `node`, per vertex of the piece.
+  std::vector<double> distances(uint32_t region, uint32_t node) const {
+    const uint32_t piece = piece_of(node);
+    if (piece == kNone) return {};
+    std::vector<uint32_t> sources = border_vertices(region, node);
+    if (sources.empty()) sources.push_back(graph_.nodes[node].vertex);
+    const Surface& surface = pieces_.surfaces[piece];
+    std::vector<double> distance(surface.vertex_count(), std::numeric_limits<double>::infinity());
+    using Item = std::pair<double, uint32_t>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    for (const uint32_t v : sources) {
+      distance[pieces_.local[v]] = 0;
+      queue.push({0.0, pieces_.local[v]});
+    }
+    while (!queue.empty()) {
+      const auto [d, v] = queue.top();
+      queue.pop();
+      if (d > distance[v]) continue;
+      for (const uint32_t e : surface.vertex_edges[v]) {
+        const uint32_t w = surface.opposite(e, v);
+        const double through = d + surface.edge_length(e);
+        if (labels_[pieces_.original[piece][w]] != region || through >= distance[w]) continue;
+        distance[w] = through;
+        queue.push({through, w});
+      }
+    }
+    return distance;
+  }
+
+  const Graph& graph_;
+  const std::vector<uint32_t>& labels_;
+  Pieces pieces_;
+  std::vector<std::vector<uint32_t>> regions_at_;  // per node
+};
 
 }  // namespace
 
-Skeleton place_skeleton(const Result& segmentation, std::span<const uint32_t> triangles,
-                        std::span<const float> frame) {
-  const Graph& graph = segmentation.graph;
-  std::vector<Mean> centroids(segmentation.region_count);
+Skeleton::Skeleton(const Result& segmentation, std::span<const float> positions,
+                   std::span<const uint32_t> triangles)
+    : regions_(segmentation.region_count) {
   for (uint32_t v = 0; v < segmentation.labels.size(); ++v) {
-    centroids[segmentation.labels[v]].add(frame, v);
+    regions_[segmentation.labels[v]].push_back(v);
   }
-  const std::vector<Mean> borders = border_means(segmentation, triangles, frame);
-  Skeleton skeleton;
+  const Rigger rigger(segmentation, positions, triangles);
+  const Graph& graph = segmentation.graph;
   for (uint32_t n = 0; n < graph.nodes.size(); ++n) {
-    const Node& node = graph.nodes[n];
-    Mean place;
-    place.add(frame, node.vertex);
-    if (node.region != kNoRegion) {
-      place = centroids[node.region];
-    } else if (node.type == NodeType::kSaddle && !borders[n].empty()) {
-      place = borders[n];
-    }
-    skeleton.nodes.push_back(place.value());
+    const uint32_t body = graph.nodes[n].region;
+    nodes_.push_back(body != kNoRegion ? regions_[body] : rigger.node_vertices(n));
   }
-  for (const Arc& arc : graph.arcs) skeleton.arcs.push_back(centroids[arc.region].value());
-  return skeleton;
+  for (const Arc& arc : graph.arcs) arcs_.push_back(rigger.arc_bands(arc));
+}
+
+SkeletonPose Skeleton::place(std::span<const float> frame) const {
+  SkeletonPose pose;
+  for (const Vertices& node : nodes_) pose.nodes.push_back(mean_of(node, frame));
+  for (const Vertices& region : regions_) pose.regions.push_back(mean_of(region, frame));
+  for (const auto& bands : arcs_) {
+    pose.arcs.emplace_back();
+    for (const Vertices& band : bands) pose.arcs.back().push_back(mean_of(band, frame));
+  }
+  return pose;
 }
 
 }  // namespace reeb::segmentation

@@ -10,17 +10,33 @@
 
 namespace reeb::segmentation {
 
+using Position = std::array<float, 3>;
+
 /// Where the graph is in space in one frame.
-struct Skeleton {
-  /// Per node of the graph: an extremity's own vertex, a branching's body, or the middle of the
-  /// borders of the regions that meet there.
-  std::vector<std::array<float, 3>> nodes;
-  /// Per arc of the graph, the centroid of its region's vertices.
-  std::vector<std::array<float, 3>> arcs;
+struct SkeletonPose {
+  std::vector<Position> nodes;  ///< per node of the graph
+  std::vector<std::vector<Position>>
+      arcs;                       ///< per arc, points between its nodes from `from` to `to`
+  std::vector<Position> regions;  ///< per region, the mean of its vertices
 };
 
-/// The skeleton of `segmentation` in a frame of the same mesh; `frame` holds V x (x, y, z), finite.
-Skeleton place_skeleton(const Result& segmentation, std::span<const uint32_t> triangles,
-                        std::span<const float> frame);
+/// The parts of the mesh that each point of the skeleton is the mean of. They are chosen on the
+/// reference and then followed, so that the skeleton of a frame is that of the reference in another
+/// pose.
+class Skeleton {
+ public:
+  /// `segmentation` is that of the mesh of `positions` (V x (x, y, z)) and `triangles`.
+  Skeleton(const Result& segmentation, std::span<const float> positions,
+           std::span<const uint32_t> triangles);
+
+  /// The skeleton in a frame, V x (x, y, z), all finite.
+  SkeletonPose place(std::span<const float> frame) const;
+
+ private:
+  using Vertices = std::vector<uint32_t>;
+
+  std::vector<Vertices> nodes_, regions_;
+  std::vector<std::vector<Vertices>> arcs_;  // none of the innermost is empty
+};
 
 }  // namespace reeb::segmentation

@@ -1,5 +1,6 @@
 #include "tests/segmentation/shapes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -69,13 +70,31 @@ class TetrahedronMarcher {
     std::vector<int> in, out;
     for (const int c : corner) (values_[c] < 0 ? in : out).push_back(c);
     if (in.empty() || out.empty()) return;
+    const size_t first = mesh_.triangles.size();
     if (in.size() == 2) {
       add_quad(mesh_, vertex_on(in[0], out[0]), vertex_on(in[0], out[1]), vertex_on(in[1], out[1]),
                vertex_on(in[1], out[0]));
-      return;
+    } else {
+      const auto& [one, three] = in.size() == 1 ? std::tie(in, out) : std::tie(out, in);
+      for (const int c : three) mesh_.triangles.push_back(vertex_on(one[0], c));
     }
-    const auto& [one, three] = in.size() == 1 ? std::tie(in, out) : std::tie(out, in);
-    for (const int c : three) mesh_.triangles.push_back(vertex_on(one[0], c));
+    // All triangles turn the same way as seen from outside.
+    const Point outwards = centre(out) - centre(in);
+    for (size_t t = first; t < mesh_.triangles.size(); t += 3) {
+      const Point a = vertex(t), u = vertex(t + 1) - a, w = vertex(t + 2) - a;
+      if (u.cross(w).dot(outwards) < 0) std::swap(mesh_.triangles[t], mesh_.triangles[t + 1]);
+    }
+  }
+
+  Point centre(const std::vector<int>& corners) const {
+    Point sum = Point::Zero();
+    for (const int c : corners) sum += point(c);
+    return sum / static_cast<double>(corners.size());
+  }
+
+  Point vertex(size_t corner) const {
+    const float* p = &mesh_.positions[3 * mesh_.triangles[corner]];
+    return {p[0], p[1], p[2]};
   }
 
   double half_;
@@ -157,6 +176,32 @@ Mesh implicit_surface(const std::function<double(const Point&)>& value, double h
 double capsule(const Point& p, const Point& a, const Point& b, double radius) {
   const double along = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   return (p - a - along * (b - a)).norm() - radius;
+}
+
+Mesh square(int cells, double size) {
+  Mesh mesh;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) {
+      add_point(mesh, {size * i / cells, size * j / cells, 0});
+      if (i == cells || j == cells) continue;
+      const uint32_t corner = static_cast<uint32_t>(j * (cells + 1) + i);
+      const uint32_t above = corner + static_cast<uint32_t>(cells) + 1;
+      add_quad(mesh, corner, corner + 1, above + 1, above);
+    }
+  }
+  return mesh;
+}
+
+Surface surface_of(const Mesh& mesh) {
+  Surface surface;
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    surface.points.emplace_back(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+  }
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    surface.triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  }
+  connect(surface);
+  return surface;
 }
 
 int euler_characteristic(const Mesh& mesh) {

@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "segmentation/surface.h"
+
 namespace reeb::segmentation::shapes {
 
 struct Mesh {
@@ -34,6 +36,13 @@ Mesh implicit_surface(const std::function<double(const Eigen::Vector3d&)>& value
 /// Distance to a segment minus the radius; the pieces of limbs.
 double capsule(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                double radius);
+
+/// Square 0 .. size in the plane z = 0, `cells` x `cells` squares of two triangles each; vertex (i,
+/// j) has the index j (cells + 1) + i.
+Mesh square(int cells, double size);
+
+/// The mesh as one surface with adjacency; its vertices keep their indices.
+Surface surface_of(const Mesh& mesh);
 
 /// V - E + F of a mesh whose vertices are all used.
 int euler_characteristic(const Mesh& mesh);
