@@ -1,0 +1,223 @@
+#include "codec/common/weights.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "codec/common/weights_kernel.h"
+#include "tests/codec/shapes.h"
+
+namespace reeb {
+namespace base_kernel {
+extern const WeightKernels kKernels;
+}
+#ifdef __x86_64__
+namespace avx2_kernel {
+extern const WeightKernels kKernels;
+}
+namespace avx512_kernel {
+extern const WeightKernels kKernels;
+}
+#endif
+}  // namespace reeb
+
+using namespace reeb;
+using namespace reeb::test;
+
+namespace {
+
+struct Fixture {
+  std::vector<int32_t> xyz;
+  SurfaceGraph surface;
+  std::vector<std::vector<float>> planes;
+  std::vector<double> noise;
+
+  /// Smooth planes with noise: neighbours agree, more or less.
+  explicit Fixture(const Shape& shape, uint32_t plane_count = 6)
+      : xyz(on_grid(shape, 12)),
+        surface(build_surface_graph(GridPoints(xyz), triangles_of(shape.connectivity))) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    for (uint32_t k = 0; k < plane_count; ++k) {
+      std::vector<float>& plane = planes.emplace_back();
+      for (const uint32_t v : surface.order) {
+        const float* p = &shape.positions[size_t{v} * 3];
+        const double x = static_cast<double>(p[0]), y = static_cast<double>(p[1]);
+        plane.push_back(
+            static_cast<float>(9 * std::sin(x + k) * std::cos(0.7 * y) + normal(random)));
+      }
+      noise.push_back(0.05 + 0.3 * k);
+    }
+  }
+};
+
+/// Minimum of the objective in weights.h, by one dense system with a multiplier for the sum.
+Eigen::VectorXd best_weights(const Fixture& f, uint32_t r, const WeightOptions& options) {
+  const PredictionGraph::Row& row = f.surface.graph.rows[r];
+  const Eigen::Index n = row.count;
+  const Eigen::Index size = n + (options.sum_to_one ? 1 : 0);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+  for (size_t o = 0; o < f.planes.size(); ++o) {
+    Eigen::VectorXd y(n);
+    for (Eigen::Index i = 0; i < n; ++i) y[i] = f.planes[o][row.neighbour[i]];
+    a.topLeftCorner(n, n) += y * y.transpose() / f.noise[o];
+    b.head(n) += y * static_cast<double>(f.planes[o][r]) / f.noise[o];
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double deviation = i < row.ring ? options.ring_deviation : options.extra_deviation;
+    a(i, i) += 1 / (deviation * deviation);
+    b[i] += static_cast<double>(row.prior[i]) / (deviation * deviation);
+  }
+  if (options.sum_to_one) {
+    a.row(n).head(n).setOnes();
+    a.col(n).head(n).setOnes();
+    b[n] = 1;
+  }
+  return a.fullPivLu().solve(b).head(n);
+}
+
+std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsigned threads,
+                            bool reference = false) {
+  WeightEstimator estimator(f.surface.graph, options, threads);
+  if (reference) estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
+  for (size_t o = 0; o < f.planes.size(); ++o) {
+    estimator.observe(f.planes[o].data(), f.noise[o]);
+    if (o % 2 == 1) estimator.solve();  // observations add up over several solves
+  }
+  estimator.solve();
+  const float* first = estimator.weights(0);
+  return {first, first + size_t{f.surface.graph.size()} * kMaxNeighbours};
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+/// Eight rows at work, from the first batch of the fixture on.
+std::vector<float> run_kernels(const WeightKernels& kernels, const Fixture& f, bool sum_to_one) {
+  std::vector<float> out(kLanes * kMaxNeighbours, 0.0f);
+  auto batch = std::make_unique<WeightBatch>();
+  for (uint32_t lane = 0; lane < kLanes; ++lane) {
+    const uint32_t r = 40 + lane * 3;
+    const PredictionGraph::Row& row = f.surface.graph.rows[r];
+    batch->self[lane] = r;
+    batch->count = std::max(batch->count, uint32_t{row.count});
+    for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
+      batch->neighbour[i][lane] = row.neighbour[i];
+      batch->prior[i][lane] = static_cast<double>(row.prior[i]);
+      batch->precision[i][lane] = 0.7 + 0.1 * i;
+      batch->in_use[i][lane] = i < row.count ? 1 : 0;
+    }
+  }
+  for (size_t o = 0; o < f.planes.size(); ++o)
+    kernels.accumulate(*batch, f.planes[o].data(), 1 / f.noise[o], sum_to_one);
+  float* lanes[kLanes];
+  for (uint32_t lane = 0; lane < kLanes; ++lane) lanes[lane] = &out[lane * kMaxNeighbours];
+  kernels.solve(*batch, sum_to_one, lanes);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("weights are the minimum of the documented objective", "[weights]") {
+  for (const Shape& shape : {torus(16, 11), with_isolated(grid(9, 8), 5), tetrahedron()}) {
+    const Fixture f(shape);
+    for (const bool sum_to_one : {false, true}) {
+      const WeightOptions options{
+          .ring_deviation = 0.9, .extra_deviation = 0.4, .sum_to_one = sum_to_one};
+      const std::vector<float> found = estimate(f, options, 1);
+      for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
+        const uint32_t count = f.surface.graph.rows[r].count;
+        const Eigen::VectorXd expected = best_weights(f, r, options);
+        INFO(shape.name << " row " << r);
+        for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
+          const double w = static_cast<double>(found[r * kMaxNeighbours + i]);
+          REQUIRE(w == Approx(i < count ? expected[i] : 0.0).margin(2e-6));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("without observations the weights are the prior", "[weights]") {
+  const Fixture f(torus(16, 11), 0);
+  const std::vector<float> found = estimate(f, {}, 1);
+  for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
+    for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
+      const auto prior = static_cast<double>(f.surface.graph.rows[r].prior[i]);
+      // The sum is brought to one, from which the priors' rounding is some 1/65536 away.
+      REQUIRE(static_cast<double>(found[r * kMaxNeighbours + i]) == Approx(prior).margin(3e-4));
+    }
+  }
+}
+
+TEST_CASE("weights from the reference reproduce it better than the prior", "[weights]") {
+  const Fixture f(torus(30, 20), 0);
+  const GridPoints points(f.xyz);
+  const std::vector<float> found = estimate(f, {}, 1, true);
+  double learned = 0, prior = 0;
+  for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
+    const PredictionGraph::Row& row = f.surface.graph.rows[r];
+    if (row.count < 8) continue;
+    for (int a = 0; a < 3; ++a) {
+      const double exact = points[f.surface.order[r]][a];
+      double by_learned = 0, by_prior = 0, sum = 0;
+      for (uint32_t i = 0; i < row.count; ++i) {
+        const double x = points[f.surface.order[row.neighbour[i]]][a];
+        by_learned += static_cast<double>(found[r * kMaxNeighbours + i]) * x;
+        by_prior += static_cast<double>(row.prior[i]) * x;
+        sum += static_cast<double>(found[r * kMaxNeighbours + i]);
+      }
+      REQUIRE(sum == Approx(1).margin(1e-5));
+      learned += std::pow(by_learned - exact, 2);
+      prior += std::pow(by_prior - exact, 2);
+    }
+  }
+  CHECK(learned < 0.1 * prior);
+}
+
+TEST_CASE("weights do not depend on the number of threads", "[weights]") {
+  const Fixture f(torus(31, 17));
+  for (const bool sum_to_one : {false, true}) {
+    const WeightOptions options{.sum_to_one = sum_to_one};
+    const std::vector<float> one = estimate(f, options, 1, true);
+    CHECK(same_bits(one, estimate(f, options, 3, true)));
+    CHECK(same_bits(one, estimate(f, options, 64, true)));
+  }
+}
+
+TEST_CASE("every instruction set gives the same bits", "[weights]") {
+  const Fixture f(torus(16, 11));
+  for (const bool sum_to_one : {false, true}) {
+    const std::vector<float> base = run_kernels(base_kernel::kKernels, f, sum_to_one);
+    CHECK(same_bits(base, run_kernels(weight_kernels(), f, sum_to_one)));
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+      CHECK(same_bits(base, run_kernels(avx2_kernel::kKernels, f, sum_to_one)));
+    if (__builtin_cpu_supports("avx512f"))
+      CHECK(same_bits(base, run_kernels(avx512_kernel::kKernels, f, sum_to_one)));
+#endif
+  }
+}
+
+TEST_CASE("values of a million steps leave finite weights", "[weights]") {
+  Fixture f(torus(8, 6), 4);
+  for (std::vector<float>& plane : f.planes) {
+    for (float& x : plane) x *= 1e5f;
+  }
+  for (const bool sum_to_one : {false, true}) {
+    for (const float w : estimate(f, {.sum_to_one = sum_to_one}, 1)) REQUIRE(std::isfinite(w));
+  }
+}
+
+TEST_CASE("weights are re-solved less and less often", "[weights]") {
+  CHECK(resolve_after(0));
+  uint32_t solves[3] = {0, 0, 0};
+  for (uint32_t k = 0; k < 300; ++k) solves[k / 100] += resolve_after(k);
+  CHECK(solves[0] > solves[1]);
+  CHECK(solves[1] >= solves[2]);
+  CHECK(solves[2] > 0);
+}
