@@ -19,13 +19,17 @@ uint32_t level_of(uint32_t row, uint32_t rows) {
 FieldOptions surface_field_options(bool fast_profile) {
   FieldOptions options;
   options.adaptive = !fast_profile;
+  options.noise_share = 2.2;
+  options.noise_floor = 0.2;
+  options.weights.ring_deviation = 1.4;
+  options.weights.extra_deviation = 0.9;
   return options;
 }
 
 FieldOptions basis_field_options() {
   FieldOptions options;
-  options.weights = {.ring_deviation = 0.5, .extra_deviation = 0.35, .sum_to_one = false};
-  options.noise_share = 0.3;
+  options.weights = {.ring_deviation = 0.5, .extra_deviation = 0.25, .sum_to_one = false};
+  options.noise_share = 0.5;
   options.noise_floor = 0.05;
   return options;
 }
@@ -105,7 +109,8 @@ void Field::finish_component(double energy) {
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
   running_ = 0;
   if (!options_.adaptive) return;
-  const double noise = options_.noise_share * (energy / (graph_.size() - graph_.size() / 4)) + options_.noise_floor;
+  const double noise =
+      options_.noise_share * (energy / (graph_.size() - graph_.size() / 4)) + options_.noise_floor;
   estimator_.observe(planes_.back().data(), noise);
   if (resolve_after(k)) estimator_.solve();
 }

@@ -78,7 +78,8 @@ void Field::code_component(Residual&& residual) {
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
     plane[row] = prediction + correction;
     // The coarse quarter does not count: its few large residuals say nothing of the rest.
-    if (row >= graph_.size() / 4) energy += static_cast<double>(correction) * static_cast<double>(correction);
+    if (row >= graph_.size() / 4)
+      energy += static_cast<double>(correction) * static_cast<double>(correction);
     note(row, n, step);
   }
   finish_component(energy);

@@ -22,7 +22,9 @@ struct PredictionGraph {
   struct Row {
     std::array<uint32_t, kMaxNeighbours> neighbour;
     std::array<float, kMaxNeighbours>
-        prior;          ///< weights expected before anything is learned; 0 for padding
+        prior;  ///< weights expected before anything is learned; 0 for padding
+    std::array<float, kMaxNeighbours>
+        precision;      ///< of that expectation, relative to the field's; higher when farther
     uint8_t count = 0;  ///< neighbours in use
     uint8_t ring = 0;   ///< the first of them, next to the row; they make the contexts
   };

@@ -13,6 +13,8 @@ constexpr uint32_t kMaxExtra = 10;   ///< neighbours beyond the ring
 constexpr uint32_t kEnough = 12;     ///< a row with fewer is completed by nearness in space
 constexpr uint32_t kLooseRing = 4;   ///< ring of a vertex that has none on the surface
 constexpr uint32_t kCoincident = 2;  ///< most vertices at the same place that join the ring
+constexpr double kLeastPrecision = 1 / 16.0;
+constexpr double kMostPrecision = 25;
 
 /// The 16 bits of x spread to every third bit.
 uint64_t spread_bits(uint32_t x) {
@@ -128,6 +130,7 @@ class SurfaceGraphBuilder {
     PredictionGraph::Row row;
     row.neighbour.fill(rank);
     row.prior.fill(0.0f);
+    row.precision.fill(1.0f);
     row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
     row.count = static_cast<uint8_t>(std::min<size_t>(g.size(), kMaxNeighbours));
     uint32_t inverse[kMaxNeighbours] = {};
@@ -140,7 +143,24 @@ class SurfaceGraphBuilder {
     for (uint32_t i = 0; i < row.ring; ++i) {
       row.prior[i] = static_cast<float>((uint64_t{inverse[i]} << 16) / sum) / 65536.0f;
     }
+    assign_precision(row, v);
     return row;
+  }
+
+  /// The farther a neighbour, the surer it counts for little: precision grows with the distance in
+  /// the ring and with its square beyond, the mean distance of the ring being 1.
+  void assign_precision(PredictionGraph::Row& row, uint32_t v) const {
+    uint32_t distance[kMaxNeighbours] = {};
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < row.count; ++i) {
+      distance[i] = std::max(4u, points_.distance_q4(v, order_[row.neighbour[i]]));
+      if (i < row.ring) sum += distance[i];
+    }
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const double ratio = static_cast<double>(distance[i]) * row.ring / sum;
+      const double precision = i < row.ring ? ratio : ratio * ratio;
+      row.precision[i] = static_cast<float>(std::clamp(precision, kLeastPrecision, kMostPrecision));
+    }
   }
 
   /// 2^22 / distance in 1/16 grid units, the distance at least a quarter of the grid.

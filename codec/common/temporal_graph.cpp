@@ -69,6 +69,7 @@ class TemporalGraphBuilder {
     Row row;
     row.neighbour.fill(rank);
     row.prior.fill(0.0f);
+    row.precision.fill(1.0f);
     const std::vector<float> prior = interpolation_prior(at);
     std::copy(prior.begin(), prior.end(), row.prior.begin());
     for (const uint32_t t : at.left) append(row, t, axis);

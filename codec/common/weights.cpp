@@ -43,7 +43,7 @@ void init_lane(WeightBatch& batch, uint32_t lane, uint32_t r, const PredictionGr
     const double deviation = i < row.ring ? options.ring_deviation : options.extra_deviation;
     batch.neighbour[i][lane] = row.neighbour[i];
     batch.prior[i][lane] = static_cast<double>(row.prior[i]);
-    batch.precision[i][lane] = 1.0 / (deviation * deviation);
+    batch.precision[i][lane] = static_cast<double>(row.precision[i]) / (deviation * deviation);
     batch.in_use[i][lane] = i < row.count ? 1.0 : 0.0;
   }
 }
@@ -70,7 +70,7 @@ WeightEstimator::~WeightEstimator() = default;
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
   constexpr double kGridVariance = 0.25;  // of half a grid unit
-  constexpr double kBending = 3e-3;       // relative to the mean squared distance of the neighbours
+  constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
   for (uint32_t r = 0; r < graph_.size(); ++r) {
     const PredictionGraph::Row& row = graph_.rows[r];
     double y[kMaxNeighbours][3];
