@@ -5,14 +5,38 @@
 namespace reeb {
 namespace {
 
-struct HalfEdgeKey {
-  uint32_t low, high;  // vertices of the edge
+struct EdgeEntry {
+  uint32_t high;  // vertex of the edge; the bucket is the lower one
   uint32_t half_edge;
-  bool operator<(const HalfEdgeKey& o) const {
-    return low != o.low ? low < o.low : high != o.high ? high < o.high : half_edge < o.half_edge;
+  bool operator<(const EdgeEntry& o) const {
+    return high != o.high ? high < o.high : half_edge < o.half_edge;
   }
-  bool same_edge(const HalfEdgeKey& o) const { return low == o.low && high == o.high; }
 };
+
+uint32_t end_of(std::span<const uint32_t> triangles, uint32_t h) {
+  return triangles[next_half_edge(h)];
+}
+
+// Half-edges by the lower vertex of their edge, sorted within: `first` says where each vertex
+// starts.
+std::vector<EdgeEntry> sort_by_edge(std::span<const uint32_t> triangles,
+                                    std::vector<uint32_t>& first) {
+  const uint32_t vertex_count =
+      triangles.empty() ? 0 : *std::max_element(triangles.begin(), triangles.end()) + 1;
+  first.assign(size_t{vertex_count} + 1, 0);
+  const auto low = [&](uint32_t h) { return std::min(triangles[h], end_of(triangles, h)); };
+  for (uint32_t h = 0; h < triangles.size(); ++h) ++first[size_t{low(h)} + 1];
+  for (size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
+  std::vector<uint32_t> at(first.begin(), first.end() - 1);
+  std::vector<EdgeEntry> entries(triangles.size());
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    entries[at[low(h)]++] = {std::max(triangles[h], end_of(triangles, h)), h};
+  }
+  for (size_t v = 0; v < vertex_count; ++v) {
+    std::sort(entries.begin() + first[v], entries.begin() + first[v + 1]);
+  }
+  return entries;
+}
 
 // Boundary of the polygon that holds `start`, an unmarked half-edge. Every triangle adds one
 // corner, so a boundary longer than `limit` means a marked cycle.
@@ -40,22 +64,19 @@ bool walk_boundary(uint32_t start, std::span<const uint32_t> triangles,
 }  // namespace
 
 std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles) {
-  std::vector<HalfEdgeKey> keys(triangles.size());
-  for (uint32_t h = 0; h < keys.size(); ++h) {
-    const uint32_t a = triangles[h];
-    const uint32_t b = triangles[next_half_edge(h)];
-    keys[h] = {std::min(a, b), std::max(a, b), h};
-  }
-  std::sort(keys.begin(), keys.end());
+  std::vector<uint32_t> first;
+  const std::vector<EdgeEntry> entries = sort_by_edge(triangles, first);
   std::vector<uint32_t> twins(triangles.size(), kNoTwin);
-  for (size_t i = 0, end; i < keys.size(); i = end) {
-    for (end = i + 1; end < keys.size() && keys[end].same_edge(keys[i]);) ++end;
-    if (end - i != 2) continue;
-    const uint32_t h = keys[i].half_edge;
-    const uint32_t k = keys[i + 1].half_edge;
-    if (triangles[h] == triangles[k]) continue;
-    twins[h] = k;
-    twins[k] = h;
+  for (size_t v = 0; v + 1 < first.size(); ++v) {
+    for (size_t i = first[v], end; i < first[v + 1]; i = end) {
+      for (end = i + 1; end < first[v + 1] && entries[end].high == entries[i].high;) ++end;
+      if (end - i != 2) continue;
+      const uint32_t h = entries[i].half_edge;
+      const uint32_t k = entries[i + 1].half_edge;
+      if (triangles[h] == triangles[k]) continue;
+      twins[h] = k;
+      twins[k] = h;
+    }
   }
   return twins;
 }

@@ -55,15 +55,6 @@ bool ran_dry(const Coder& coder) {
   return false;
 }
 
-/// part / whole as a probability of a 1, never certain; part <= whole, whole > 0.
-inline Probability ratio_to_probability(uint64_t part, uint64_t whole) {
-  while (whole >> 48 != 0) {
-    whole >>= 8;
-    part >>= 8;
-  }
-  return static_cast<Probability>(std::clamp<uint64_t>((part << 16) / whole, 1, 65535));
-}
-
 /// Which points are the same vertex: only points at the same place can be.
 class SplitSyntax {
  public:

@@ -1,0 +1,114 @@
+// Coder of integers that several guesses predict.
+//
+// A guess is a place and a scale; how far the truth lies from the guesses of one kind, and how
+// often that kind is right, is learned while coding. The distributions of all guesses are added,
+// and the integer is found by halving its range. Integer arithmetic throughout.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "entropy/range_coder.h"
+
+namespace reeb {
+
+/// Learned density of the signed error of one kind of guess. Errors come in 1/16 of a step; the
+/// density is constant over each of the eight steps next to 0 and over quarters of octaves beyond.
+class ErrorModel {
+ public:
+  static constexpr uint32_t kUnit = 1 << 12;  ///< one observation
+
+  ErrorModel();
+  /// Weight of the errors from 0 to `error`, negative where `error` is; at most 2^40.
+  int64_t weight_to(int64_t error) const;
+  /// Learns that a guess of this kind was there and explains `share` (0 .. kUnit) of a truth whose
+  /// error lies in [from, to). Beyond `memory` observations (up to 4096) all are halved.
+  void observe(int64_t from, int64_t to, uint32_t share, uint32_t memory);
+
+ private:
+  static constexpr uint32_t kBlock = 16;
+  static constexpr uint32_t kBlocks = 9;
+  struct Side {
+    std::array<uint32_t, kBlock * kBlocks> weight{};  // of each bucket
+    std::array<uint32_t, kBlock * kBlocks> inner{};   // buckets before it in its block
+    std::array<uint32_t, kBlocks> blocks{};           // all blocks before
+    void add(uint32_t bucket, uint32_t share);
+    void sum_up();
+  };
+  void halve();
+
+  Side sides_[2];  // errors >= 0, errors < 0
+  uint32_t seen_;
+  uint64_t scale_ = 0;
+};
+
+/// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
+class GuessMixture {
+ public:
+  GuessMixture(uint32_t kinds, uint32_t memory) : memory_(memory), models_(kinds) {}
+
+  void clear() { guesses_.clear(); }
+
+  /// `place` in 1/256; one step of the error model is 1/8 of `scale`, which is in 1/256 too, 1 ..
+  /// 2^24.
+  void add(uint32_t kind, int64_t place, uint32_t scale) {
+    guesses_.push_back({kind, place, (uint64_t{1} << 23) / scale});
+  }
+
+  /// Codes `value` in 0 .. count-1 and learns it. The guesses see value v as the interval [v, v+1).
+  /// The range is split at `likely` (< count) first, then at distances reach, 2 reach, ... (reach >
+  /// 0) beyond until the value is passed, then in halves.
+  template <class Coder>
+  uint32_t code(Coder& coder, uint32_t value, uint32_t count, uint32_t likely, uint64_t reach) {
+    Range r = {0, count, weight_below(0), weight_below(count)};
+    const bool up = likely == 0 || narrow(coder, value, likely, r);
+    bool passed = false;
+    for (uint64_t split = likely; !passed && reach < (up ? r.last - split : split - r.first);
+         reach *= 2) {
+      split = up ? split + reach : split - reach;
+      passed = narrow(coder, value, static_cast<uint32_t>(split), r) != up;
+    }
+    while (r.last - r.first > 1) narrow(coder, value, r.first + (r.last - r.first) / 2, r);
+    observe(r.first, static_cast<uint64_t>(r.high - r.low));
+    return r.first;
+  }
+
+ private:
+  struct Range {
+    uint32_t first, last;  // the value is in [first, last)
+    int64_t low, high;     // weight below each
+  };
+
+  template <class Coder>
+  bool narrow(Coder& coder, uint32_t value, uint32_t split, Range& r) {
+    const int64_t weight = weight_below(split);
+    const bool up = coder.code(value >= split, probability(r.high - weight, r.high - r.low));
+    (up ? r.first : r.last) = split;
+    (up ? r.low : r.high) = weight;
+    return up;
+  }
+
+  struct Guess {
+    uint32_t kind;
+    int64_t place;
+    uint64_t gain;  // steps of the error model per unit of distance
+    int64_t error(uint32_t value) const {
+      return ((static_cast<int64_t>(value) << 8) - place) * static_cast<int64_t>(gain) >> 16;
+    }
+  };
+
+  static Probability probability(int64_t part, int64_t whole);
+  /// Weight of all values below `value`, up to a constant; rises by at least kFloor per value.
+  int64_t weight_below(uint32_t value) const;
+  void observe(uint32_t value, uint64_t all);
+
+  static constexpr int64_t kFloor = 1 << 8;
+  uint32_t memory_;
+  std::vector<Guess> guesses_;
+  std::vector<ErrorModel> models_;
+  std::vector<uint32_t> shares_;  // scratch
+};
+
+}  // namespace reeb
