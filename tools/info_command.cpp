@@ -2,6 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "tools/command.h"
 #include "tools/io/file_bytes.h"
@@ -13,6 +14,7 @@ namespace {
 struct Options {
   std::string input;
   bool json = false;
+  bool trace = false;
   ConsoleOptions console;
 };
 
@@ -85,8 +87,13 @@ int run(const Options& o) {
   Status status = FileBytes::read(o.input, file);
   if (!status.ok()) return fail(console, status);
   const std::string_view text = file.view();
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
+  if (o.trace) {
+    std::cout << trace(bytes);
+    return kExitDone;
+  }
   std::unique_ptr<Decoder> decoder;
-  status = Decoder::open({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, {}, decoder);
+  status = Decoder::open(bytes, {}, decoder);
   if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
   if (o.json) {
     using Json = nlohmann::ordered_json;
@@ -108,7 +115,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_option("INPUT", o->input, "The .reeb file; - = standard input")
       ->required()
       ->type_name("");
-  command->add_flag("--json", o->json, "As JSON");
+  auto* json = command->add_flag("--json", o->json, "As JSON");
+  command->add_flag("--trace", o->trace, "Every field of every header instead, damaged files too")
+      ->excludes(json);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   add_compare_command(app, exit_code);
   add_sample_command(app, exit_code);
   add_picture_command(app, exit_code);
+  add_plot_command(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -123,6 +123,10 @@ TEST_CASE("encode, info, decode and compare") {
   CHECK(told["bpvf"].get<double>() == Approx(bpvf));
   CHECK_THAT(run_reeb({"info", files.stream}).out, Contains("6 frames") && Contains("2,634"));
 
+  const CommandResult traced = run_reeb({"info", files.stream, "--trace"});
+  CHECK(traced.exit_code == kExitDone);
+  CHECK_THAT(traced.out, Contains("total_frames"));
+
   const CommandResult compared = run_reeb(
       {"compare", files.cache, files.stream, "--json", "--per-frame", "--tolerance", "0.1"});
   INFO(compared.err);
@@ -279,6 +283,15 @@ TEST_CASE("a picture of one sequence or two") {
   CHECK(run_reeb({"picture", files.cache, files.stream, "-f", "-o", png}).exit_code == kExitDone);
   CHECK_THAT(run_reeb({"picture", files.cache, "-f", "-o", png, "--frames", "7"}).err,
              Contains("frame 7 does not exist"));
+}
+
+TEST_CASE("a plot of a table") {
+  const TempFolder folder;
+  const std::string table = folder.write("r.csv", "sequence,bpvf,kg\ncow,1,0.5\ncow,2,0.2\n");
+  CHECK(run_reeb({"plot", table, "-o", folder / "r.svg"}).exit_code == kExitDone);
+  CHECK_THAT(read_text(folder / "r.svg"), Contains("</svg>"));
+  CHECK_THAT(run_reeb({"plot", table, "-y", "psnr", "-f", "-o", folder / "r.svg"}).err,
+             Contains("psnr"));
 }
 
 TEST_CASE("an interrupted command leaves nothing and ends with 130") {

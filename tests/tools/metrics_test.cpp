@@ -107,9 +107,24 @@ TEST_CASE("what cannot be compared is told, with the frame") {
   with_face.shots[0].connectivity.face_sizes = {3};
   with_face.shots[0].connectivity.corners = {0, 1, 1};
   CHECK_THAT(message(original(), with_face), Catch::Contains("0 against 1 face"));
-  Sequence turned = with_face;
-  turned.shots[0].connectivity.corners = {1, 1, 0};
-  CHECK_THAT(message(with_face, turned), Catch::Contains("faces differ"));
+  Sequence other_face = with_face;
+  other_face.shots[0].connectivity.corners = {0, 0, 1};
+  CHECK_THAT(message(with_face, other_face), Catch::Contains("faces differ"));
+}
+
+TEST_CASE("the order of faces and their first corners do not matter, their sense does") {
+  const TestMesh mesh = test_mesh("a", square(), {{0, 1, 2}, {0, 2, 3}});
+  const TestMesh shuffled = test_mesh("b", square(), {{2, 3, 0}, {1, 2, 0}});
+  const TestMesh reversed = test_mesh("c", square(), {{2, 1, 0}, {0, 2, 3}});
+  const auto sequence = [](const TestMesh& m) {
+    Sequence s;
+    s.shots.push_back({m.connectivity, 1, m.positions});
+    return s;
+  };
+  Comparison c;
+  REQUIRE(compare_sequences(sequence(mesh), sequence(shuffled), c).ok());
+  CHECK(c.identical);
+  CHECK_FALSE(compare_sequences(sequence(mesh), sequence(reversed), c).ok());
 }
 
 }  // namespace reeb::tools

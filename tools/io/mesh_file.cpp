@@ -70,6 +70,9 @@ Status read_mesh(std::string_view bytes, MeshFormat format, const MeshReference*
   if (out.positions.empty()) {
     return Status::corrupt("the mesh is empty: no vertices were found; export the frame again");
   }
+  if (out.positions.size() / 3 > UINT32_MAX) {
+    return Status::corrupt("more than 4,294,967,295 vertices; split the mesh");
+  }
   status = check_finite(out.positions);
   if (status.ok() && !out.same_connectivity) status = check_corners(out.connectivity);
   if (!status.ok()) return status;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include "tests/tools/test_meshes.h"
 
@@ -311,6 +312,39 @@ TEST_CASE("STL: bad files") {
   CHECK_THAT(failure("solid a\nouter loop\nvertex 0 0 0\nendloop\nendsolid\n", MeshFormat::kStl),
              contains("triangle"));
   CHECK_THAT(failure("solid a\nendsolid a\n", MeshFormat::kStl), contains("empty"));
+}
+
+TEST_CASE("damaged bytes give an error or a sound mesh") {
+  const TestMesh mesh = odd_meshes()[7];
+  std::mt19937 random(1);
+  int sound = 0;
+  for (const MeshFormat format :
+       {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kOff, MeshFormat::kStl}) {
+    const std::string whole = write_mesh(mesh.connectivity, mesh.positions, format);
+    for (int round = 0; round < 3000; ++round) {
+      std::string bytes = whole;
+      for (uint32_t i = random() % 4; i < 4; ++i) {
+        bytes[random() % bytes.size()] = static_cast<char>(random());
+      }
+      if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+      MeshFrame out;
+      const Status status = read_mesh(bytes, format, nullptr, out);
+      if (!status.ok()) continue;
+      ++sound;
+      const auto& c = out.connectivity;
+      bool good = out.positions.size() == size_t{3} * c.vertex_count;
+      size_t corners = 0;
+      for (const uint32_t size : c.face_sizes) {
+        good = good && size > 0;
+        corners += size;
+      }
+      good = good && corners == c.corners.size();
+      for (const uint32_t v : c.corners) good = good && v < c.vertex_count;
+      for (const float x : out.positions) good = good && std::isfinite(x);
+      if (!good) FAIL("format " << static_cast<int>(format) << ", round " << round);
+    }
+  }
+  CHECK(sound > 1000);
 }
 
 TEST_CASE("written text is short and plain") {
