@@ -69,17 +69,9 @@ int64_t ErrorModel::weight_to(int64_t error) const {
   return negative ? -weight : weight;
 }
 
-// A value may be wider than many buckets; then its share is spread over four places in it.
-void ErrorModel::observe(int64_t from, int64_t to, uint32_t share, uint32_t memory) {
-  constexpr int kPlaces = 4;
-  const auto bucket = [](int64_t error) {
-    return bucket_of(static_cast<uint64_t>(error < 0 ? -error - 1 : error)).index;
-  };
-  const bool together = (from < 0) == (to - 1 < 0) && bucket(from) == bucket(to - 1);
-  for (int i = 0; i < (together ? 1 : kPlaces); ++i) {
-    const int64_t error = together ? from : from + (to - from) * (2 * i + 1) / (2 * kPlaces);
-    sides_[error < 0].add(bucket(error), together ? share : share / kPlaces);
-  }
+void ErrorModel::observe(int64_t error, uint32_t share, uint32_t memory) {
+  const auto size = static_cast<uint64_t>(error < 0 ? -error - 1 : error);
+  if (share > 0) sides_[error < 0].add(bucket_of(size).index, share);
   seen_ += kUnit;
   if (seen_ > memory * kUnit) halve();
   scale_ = (uint64_t{1} << 32) / seen_;
@@ -101,24 +93,22 @@ Probability GuessMixture::probability(int64_t part, int64_t whole) {
       std::clamp<uint64_t>(((p >> excess) << 16) / (w >> excess), 1, 65535));
 }
 
-int64_t GuessMixture::weight_below(uint32_t value) const {
+int64_t GuessMixture::weigh(uint32_t value, std::vector<int64_t>& by_guess) const {
+  by_guess.resize(guesses_.size());
   int64_t sum = kFloor * value;
-  for (const Guess& g : guesses_) sum += models_[g.kind].weight_to(g.error(value));
+  for (size_t i = 0; i < guesses_.size(); ++i) {
+    by_guess[i] = models_[guesses_[i].kind].weight_to(guesses_[i].error(value));
+    sum += by_guess[i];
+  }
   return sum;
 }
 
 void GuessMixture::observe(uint32_t value, uint64_t all) {
-  // Shares first: guesses of one kind must not see what their fellows learn.
-  shares_.clear();
-  for (const Guess& g : guesses_) {
-    const ErrorModel& model = models_[g.kind];
-    const auto own = static_cast<uint64_t>(model.weight_to(g.error(value + 1)) -
-                                           model.weight_to(g.error(value)));
-    shares_.push_back(static_cast<uint32_t>(own * ErrorModel::kUnit / all));
-  }
   for (size_t i = 0; i < guesses_.size(); ++i) {
     const Guess& g = guesses_[i];
-    models_[g.kind].observe(g.error(value), g.error(value + 1), shares_[i], memory_);
+    const auto own = static_cast<uint64_t>(high_[i] - low_[i]);
+    const auto share = static_cast<uint32_t>(own * ErrorModel::kUnit / all);
+    models_[g.kind].observe(g.error(value, 128), share, memory_);
   }
 }
 

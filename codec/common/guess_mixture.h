@@ -23,9 +23,9 @@ class ErrorModel {
   ErrorModel();
   /// Weight of the errors from 0 to `error`, negative where `error` is; at most 2^40.
   int64_t weight_to(int64_t error) const;
-  /// Learns that a guess of this kind was there and explains `share` (0 .. kUnit) of a truth whose
-  /// error lies in [from, to). Beyond `memory` observations (up to 4096) all are halved.
-  void observe(int64_t from, int64_t to, uint32_t share, uint32_t memory);
+  /// Learns that a guess of this kind was there and explains `share` (0 .. kUnit) of a truth at
+  /// `error`. Beyond `memory` observations (up to 4096) all are halved.
+  void observe(int64_t error, uint32_t share, uint32_t memory);
 
  private:
   static constexpr uint32_t kBlock = 16;
@@ -62,7 +62,7 @@ class GuessMixture {
   /// 0) beyond until the value is passed, then in halves.
   template <class Coder>
   uint32_t code(Coder& coder, uint32_t value, uint32_t count, uint32_t likely, uint64_t reach) {
-    Range r = {0, count, weight_below(0), weight_below(count)};
+    Range r = {0, count, weigh(0, low_), weigh(count, high_)};
     const bool up = likely == 0 || narrow(coder, value, likely, r);
     bool passed = false;
     for (uint64_t split = likely; !passed && reach < (up ? r.last - split : split - r.first);
@@ -83,10 +83,11 @@ class GuessMixture {
 
   template <class Coder>
   bool narrow(Coder& coder, uint32_t value, uint32_t split, Range& r) {
-    const int64_t weight = weight_below(split);
+    const int64_t weight = weigh(split, split_);
     const bool up = coder.code(value >= split, probability(r.high - weight, r.high - r.low));
     (up ? r.first : r.last) = split;
     (up ? r.low : r.high) = weight;
+    (up ? low_ : high_).swap(split_);
     return up;
   }
 
@@ -94,21 +95,24 @@ class GuessMixture {
     uint32_t kind;
     int64_t place;
     uint64_t gain;  // steps of the error model per unit of distance
-    int64_t error(uint32_t value) const {
-      return ((static_cast<int64_t>(value) << 8) - place) * static_cast<int64_t>(gain) >> 16;
+    /// Of `value` plus `part` / 256.
+    int64_t error(uint32_t value, int64_t part = 0) const {
+      return ((static_cast<int64_t>(value) << 8) + part - place) * static_cast<int64_t>(gain) >> 16;
     }
   };
 
   static Probability probability(int64_t part, int64_t whole);
-  /// Weight of all values below `value`, up to a constant; rises by at least kFloor per value.
-  int64_t weight_below(uint32_t value) const;
+  /// Weight of all values below `value`, up to a constant, by guess and in all; rises by at least
+  /// kFloor per value.
+  int64_t weigh(uint32_t value, std::vector<int64_t>& by_guess) const;
+  /// Learns `value`; low_ and high_ are the weights below it and below the next.
   void observe(uint32_t value, uint64_t all);
 
   static constexpr int64_t kFloor = 1 << 8;
   uint32_t memory_;
   std::vector<Guess> guesses_;
   std::vector<ErrorModel> models_;
-  std::vector<uint32_t> shares_;  // scratch
+  std::vector<int64_t> low_, high_, split_;  // weights by guess below the bounds of the range
 };
 
 }  // namespace reeb

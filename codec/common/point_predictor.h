@@ -54,10 +54,9 @@ class PointPredictor {
   uint32_t reach(size_t axis) const;
 
  private:
-  static constexpr size_t kMaxSingles = 4;
+  static constexpr size_t kMaxSingles = 2;
 
   double scale(size_t axis) const;
-
   void collect(uint32_t point, std::span<const int32_t> grid);
   void add_neighbour(uint32_t neighbour, std::span<const int32_t> grid);
   void add_parallelogram(uint32_t across, std::span<const int32_t> grid);
