@@ -1,0 +1,90 @@
+#include "codec/common/point_predictor.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "codec/common/connectivity.h"
+#include "entropy/range_coder.h"
+
+using namespace reeb;
+using List = std::vector<uint32_t>;
+
+namespace {
+
+// Triangles of an n by n grid of vertices.
+List grid_triangles(uint32_t n) {
+  List out;
+  for (uint32_t i = 0; i + 1 < n; ++i) {
+    for (uint32_t j = 0; j + 1 < n; ++j) {
+      const uint32_t a = i * n + j;
+      out.insert(out.end(), {a, a + 1, a + n, a + n, a + 1, a + n + 1});
+    }
+  }
+  return out;
+}
+
+// Bits per vertex of a height field over the grid.
+template <class Height>
+double bits_per_vertex(uint32_t n, Height height) {
+  const List triangles = grid_triangles(n);
+  const List twins = pair_half_edges(triangles);
+  std::vector<int32_t> grid;
+  for (uint32_t v = 0; v < n * n; ++v) {
+    const auto x = static_cast<int32_t>(v % n * 20), y = static_cast<int32_t>(v / n * 20);
+    grid.insert(grid.end(), {x, y, height(x, y)});
+  }
+  PointPredictor predictor(n * n, triangles, twins);
+  GuessMixture guesses(PointPredictor::kKindCount, PointPredictor::kMemory);
+  BinaryEncoder coder;
+  for (const uint32_t p : position_order(n * n, triangles)) {
+    predictor.start(p, grid);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const int32_t x = grid[p * 3 + axis];
+      predictor.guess(axis, guesses);
+      guesses.code(coder, static_cast<uint32_t>(x), 65536, predictor.likely(axis),
+                   predictor.reach(axis));
+      predictor.learn(axis, x);
+    }
+  }
+  return 8.0 * static_cast<double>(coder.finish().size()) / (n * n);
+}
+
+}  // namespace
+
+TEST_CASE("the order takes every point once and grows along triangles", "[point_predictor]") {
+  const List triangles = grid_triangles(9);
+  const List order = position_order(83, triangles);  // two points without triangles
+  List sorted = order, all(83);
+  std::sort(sorted.begin(), sorted.end());
+  std::iota(all.begin(), all.end(), 0u);
+  CHECK(sorted == all);
+  CHECK(order[0] == 0);
+  CHECK(order[1] == 1);
+  CHECK(order[2] == 9);   // ends the first triangle
+  CHECK(order[3] == 10);  // the next one, on the two before
+  CHECK(position_order(0, {}).empty());
+}
+
+TEST_CASE("a plane costs nearly nothing, a smooth surface little", "[point_predictor]") {
+  CHECK(bits_per_vertex(40, [](int32_t x, int32_t y) { return 2 * x + y; }) < 0.3);
+  const double wave = bits_per_vertex(40, [](int32_t x, int32_t y) {
+    return static_cast<int32_t>(std::lround(400 + 300 * std::sin(x / 150.0) * std::cos(y / 170.0)));
+  });
+  CHECK(wave < 4.0);  // heights span 600 steps, over 9 bits
+}
+
+TEST_CASE("weights of features are learned from exact data", "[point_predictor]") {
+  FeatureWeights weights;
+  for (int i = 0; i < 300; ++i) {
+    const FeatureWeights::Row f = {std::sin(i * 0.7) * 50, std::cos(i * 1.3) * 50,
+                                   std::sin(i * 2.1) * 50};
+    weights.learn(f, 0.5 * f[0] - 0.25 * f[1] + 1.5 * f[2], 1.0);
+  }
+  const FeatureWeights::Row w = weights.solve();
+  CHECK(w[0] == Approx(0.5).epsilon(0.01));
+  CHECK(w[1] == Approx(-0.25).epsilon(0.01));
+  CHECK(w[2] == Approx(1.5).epsilon(0.01));
+  CHECK(FeatureWeights().solve() == FeatureWeights::Row{0, 0, 0});
+}
