@@ -8,13 +8,10 @@
 namespace reeb {
 namespace {
 
-// Triangles that one byte may stand for: below what the range coder of Draco reaches on a mesh
-// whose symbols are all alike, far above what real meshes reach.
-constexpr uint64_t kTrianglesPerByte = 1 << 15;
 constexpr uint64_t kDracoMemoryPerTriangle = 128;  // bytes, measured with room to spare
 
 // What Draco reads first. It trusts the counts for its allocations.
-Status check_counts(std::span<const uint8_t> middle, const Limits& limits) {
+Status check_counts(std::span<const uint8_t> middle, const Limits& limits, uint64_t max_triangles) {
   ByteReader in(middle);
   const uint8_t traversal = in.u8();
   const uint64_t vertices = in.varuint();
@@ -29,7 +26,7 @@ Status check_counts(std::span<const uint8_t> middle, const Limits& limits) {
     return Status::limit("connectivity: more triangles or vertices than allowed");
   }
   if (attribute_tables != 0 || triangles == 0 || vertices == 0 || vertices > 3 * triangles ||
-      symbols > triangles || splits > symbols || triangles > kTrianglesPerByte * middle.size()) {
+      symbols > triangles || splits > symbols || triangles > max_triangles) {
     return Status::corrupt("connectivity: its counts are impossible");
   }
   return {};
@@ -51,8 +48,8 @@ bool read_triangles(const draco::Mesh& mesh, DracoMesh& out) {
 }  // namespace
 
 Status decode_draco_connectivity(std::span<const uint8_t> middle, const Limits& limits,
-                                 DracoMesh& out) {
-  if (Status s = check_counts(middle, limits); !s.ok()) return s;
+                                 uint64_t max_triangles, DracoMesh& out) {
+  if (Status s = check_counts(middle, limits, max_triangles); !s.ok()) return s;
   std::vector<char> file(kDracoFront.begin(), kDracoFront.end());
   file.insert(file.end(), middle.begin(), middle.end());
   file.insert(file.end(), kDracoBack.begin(), kDracoBack.end());

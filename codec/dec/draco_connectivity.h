@@ -24,8 +24,8 @@ struct DracoMesh {
 };
 
 /// Decodes `middle`, a Draco file without its front and back. Its counts are checked against
-/// `limits` and its length before Draco sees it.
+/// `limits` before Draco sees it; more than `max_triangles` are corrupt.
 Status decode_draco_connectivity(std::span<const uint8_t> middle, const Limits& limits,
-                                 DracoMesh& out);
+                                 uint64_t max_triangles, DracoMesh& out);
 
 }  // namespace reeb

@@ -1,5 +1,6 @@
 #include "codec/dec/reference_decoder.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "bitstream/bytes.h"
@@ -28,15 +29,20 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
   sections.rest = in.take(h.rest_bytes);
   sections.order = in.take(h.order_bytes);
   if (!in.ok() || in.remaining() != 0) return Status::corrupt("mesh: sections do not fill it");
+  if (std::max(h.vertex_count, h.face_count) > kElementsPerByte * bytes.size()) {
+    return Status::corrupt("mesh: more vertices or faces than its bytes can hold");
+  }
   if (h.vertex_count > limits.max_vertices) return Status::limit("mesh: too many vertices");
   if (h.face_count > limits.max_faces) return Status::limit("mesh: too many faces");
   return {};
 }
 
-Status decode_state(const Sections& sections, const Limits& limits, MeshState& state) {
+Status decode_state(const Sections& sections, const Limits& limits, uint64_t max_triangles,
+                    MeshState& state) {
   if (!sections.draco.empty()) {
     DracoMesh mesh;
-    if (Status s = decode_draco_connectivity(sections.draco, limits, mesh); !s.ok()) return s;
+    if (Status s = decode_draco_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
+      return s;
     state.point_count = mesh.point_count;
     state.triangles = std::move(mesh.triangles);
     state.twins = pair_half_edges(state.triangles);
@@ -79,7 +85,8 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   MeshState state;
   state.vertex_count = h.vertex_count;
   state.face_count = h.face_count;
-  if (Status s = decode_state(sections, limits, state); !s.ok()) return s;
+  if (Status s = decode_state(sections, limits, kElementsPerByte * bytes.size(), state); !s.ok())
+    return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
   if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {

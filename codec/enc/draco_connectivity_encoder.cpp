@@ -81,7 +81,7 @@ bool encode_draco_connectivity(std::span<const uint32_t> triangles, uint32_t ver
   }
   constexpr uint32_t kAny = std::numeric_limits<uint32_t>::max();
   const Limits limits = {kAny, kAny, kAny, std::numeric_limits<uint64_t>::max()};
-  return decode_draco_connectivity(out.middle, limits, out.mesh).ok() &&
+  return decode_draco_connectivity(out.middle, limits, kAny, out.mesh).ok() &&
          read_vertex_numbers(numbered, out.vertex_of) &&
          out.vertex_of.size() == out.mesh.point_count;
 }

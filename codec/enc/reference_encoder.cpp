@@ -184,6 +184,32 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
   return status;
 }
 
+Status write_mesh(const DracoPlan& plan, const std::vector<uint32_t>& coding,
+                  const ReferenceOptions& options, MeshState& state, std::vector<uint8_t>& bytes) {
+  BinaryEncoder coder;
+  if (Status s = code_rest(coder, state, std::numeric_limits<uint64_t>::max()); !s.ok()) return s;
+  std::vector<uint8_t> rest = coder.finish();
+  // Zeros at the end of a range code mean nothing; they keep extreme meshes within the decoder's
+  // bound.
+  const size_t elements =
+      std::max({size_t{state.vertex_count}, size_t{state.face_count}, state.triangles.size() / 3});
+  rest.resize(std::max<size_t>(rest.size(), elements / kElementsPerByte + 1));
+  std::vector<uint8_t> order;
+  if (!options.reorder) {
+    if (Status s = write_order(state, coding, order); !s.ok()) return s;
+  }
+  const MeshHeader header = {state.vertex_count,
+                             state.face_count,
+                             options.reorder ? uint8_t{0} : MeshHeader::kOrderKept,
+                             plan.encoding.middle.size(),
+                             rest.size(),
+                             order.size()};
+  if (Status s = write_header(header, "mesh header", bytes); !s.ok()) return s;
+  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &order};
+  for (const auto* part : parts) bytes.insert(bytes.end(), part->begin(), part->end());
+  return {};
+}
+
 // Positions and faces of `decoded` are those of the input, vertices renamed by `coding` where the
 // order is dropped.
 bool survives(const Connectivity& input, std::span<const int32_t> grid,
@@ -213,22 +239,7 @@ Status encode_reference(const Connectivity& connectivity, std::span<const int32_
   const std::vector<uint32_t> coding = number_vertices(connectivity, plan.encoding);
   MeshState state = make_state(connectivity, grid, plan, coding);
 
-  BinaryEncoder coder;
-  if (Status s = code_rest(coder, state, std::numeric_limits<uint64_t>::max()); !s.ok()) return s;
-  const std::vector<uint8_t> rest = coder.finish();
-  std::vector<uint8_t> order;
-  if (!options.reorder) {
-    if (Status s = write_order(state, coding, order); !s.ok()) return s;
-  }
-  const MeshHeader header = {state.vertex_count,
-                             state.face_count,
-                             options.reorder ? uint8_t{0} : MeshHeader::kOrderKept,
-                             plan.encoding.middle.size(),
-                             rest.size(),
-                             order.size()};
-  if (Status s = write_header(header, "mesh header", bytes); !s.ok()) return s;
-  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &order};
-  for (const auto* part : parts) bytes.insert(bytes.end(), part->begin(), part->end());
+  if (Status s = write_mesh(plan, coding, options, state, bytes); !s.ok()) return s;
   constexpr uint32_t kAny = std::numeric_limits<uint32_t>::max();
   const Limits limits = {kAny, kAny, kAny, std::numeric_limits<uint64_t>::max()};
   if (Status s = decode_reference(bytes, limits, decoded); !s.ok()) return s;
