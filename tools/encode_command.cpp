@@ -129,6 +129,7 @@ int run(Options& o) {
   std::vector<uint8_t> bytes;
   EncodeStats stats;
   status = encode(sequence, o.encoder, bytes, stats);
+  if (status.ok() && o.encoder.progress) o.encoder.progress(1);
   if (status.ok()) status = write_stream(o, bytes);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);

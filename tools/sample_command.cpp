@@ -12,7 +12,7 @@ namespace {
 struct Options {
   std::string name;
   std::string output;
-  uint32_t frame_count = 0;
+  uint32_t frame_count = 100;
   bool overwrite = false;
   unsigned threads = 0;
   ConsoleOptions console;
@@ -21,9 +21,9 @@ struct Options {
 int run(const Options& o) {
   Console console(o.console);
   Sequence sequence;
-  Status status = make_sample(o.name, o.frame_count, sequence);
   OutputName name;
-  if (status.ok()) status = parse_output_name(o.output, sequence.frame_count(), name);
+  Status status = parse_output_name(o.output, o.frame_count, name);
+  if (status.ok()) status = make_sample(o.name, o.frame_count, sequence);
   if (!status.ok()) {
     console.error(status.message());
     return kExitUsage;

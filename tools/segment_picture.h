@@ -10,6 +10,7 @@
 
 #include "bitstream/status.h"
 #include "segmentation/skeleton.h"
+#include "tools/picture/render.h"
 
 namespace reeb::tools {
 
@@ -29,14 +30,19 @@ struct PictureSubject {
   const segmentation::Graph* graph = nullptr;
 };
 
-/// A POV-Ray scene: the frames side by side from left to right, each centred, y upwards, seen
-/// across their widest horizontal extent; regions coloured and translucent, the graph inside.
-std::string povray_scene(const PictureSubject& subject, const std::vector<PictureFrame>& frames,
-                         uint32_t width, uint32_t height);
+/// A scene in POV-Ray's language and the size that it is made for.
+struct PovrayScene {
+  std::string text;
+  uint32_t width = 0, height = 0;  ///< pixels
+};
+
+/// The frames (at least one) side by side from left to right, each centred in `tile` pixels of
+/// width; regions coloured and translucent, the graph inside.
+PovrayScene povray_scene(const PictureSubject& subject, const std::vector<PictureFrame>& frames,
+                         const Camera& camera, uint32_t tile);
 
 /// Renders a scene into the bytes of a PNG file with the command `povray`, which must be installed.
 /// `threads` 0 = all cores.
-Status render(const std::string& scene, uint32_t width, uint32_t height, unsigned threads,
-              std::string& png);
+Status render_povray(const PovrayScene& scene, unsigned threads, std::string& png);
 
 }  // namespace reeb::tools

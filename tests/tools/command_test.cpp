@@ -272,6 +272,69 @@ TEST_CASE("frame rate and start time come from the input or the command line") {
   CHECK(info["start_time"] == -2.5);
 }
 
+TEST_CASE("every input format goes through the codec") {
+  const TempFolder folder;
+  for (const std::string name :
+       {"obj/f_%03d.obj", "ply/f%d.ply", "off/f_%d.off", "pc2/m.pc2", "mdd/m.mdd"}) {
+    INFO(name);
+    const std::string input = folder / name.substr(0, 3);
+    const std::string stream = input + ".reeb";
+    REQUIRE(run_reeb({"sample", "mechanism", "--frames", "2", "-o", folder / name}).exit_code == 0);
+    REQUIRE(run_reeb({"encode", input, "-o", stream, "--kg", "0.5"}).exit_code == kExitDone);
+    CHECK(run_reeb({"compare", input, stream, "--tolerance", "0.5"}).exit_code == kExitDone);
+  }
+  REQUIRE(
+      run_reeb({"sample", "mechanism", "--frames", "2", "-o", folder / "stl/f%d.stl"}).exit_code ==
+      0);
+  REQUIRE(
+      run_reeb({"encode", folder / "stl", "-o", folder / "stl.reeb", "--kg", "0.5"}).exit_code ==
+      0);
+  CHECK(
+      run_reeb({"compare", folder / "stl", folder / "stl.reeb", "--tolerance", "0.5"}).exit_code ==
+      0);
+}
+
+TEST_CASE("odd meshes go through the codec with all their vertices and faces") {
+  for (const TestMesh& mesh : odd_meshes()) {
+    // Coordinates at the limits of float32 are for readers and writers only.
+    if (mesh.name == "exact floats") continue;
+    INFO(mesh.name);
+    const TempFolder folder;
+    std::vector<float> positions = mesh.positions;
+    for (const char* name : {"in/f_1.obj", "in/f_2.obj"}) {
+      folder.write(name, write_mesh(mesh.connectivity, positions, MeshFormat::kObj));
+      positions[4] += 0.5f;
+    }
+    const std::string stream = folder / "s.reeb";
+    const CommandResult encoded = run_reeb({"encode", folder / "in", "-o", stream, "--kg", "0.01"});
+    INFO(encoded.err);
+    REQUIRE(encoded.exit_code == kExitDone);
+    REQUIRE(run_reeb({"decode", stream, "-o", folder / "out/f_%d.ply"}).exit_code == kExitDone);
+    const CommandResult compared =
+        run_reeb({"compare", folder / "in", folder / "out", "--tolerance", "0.01"});
+    INFO(compared.err);
+    CHECK(compared.exit_code == kExitDone);
+  }
+}
+
+TEST_CASE("a change of connectivity starts a new reference and is said") {
+  const TempFolder folder;
+  const TestMesh a = plain_mesh();
+  const TestMesh b = odd_meshes()[0];
+  folder.write("in/f_1.obj", write_mesh(a.connectivity, a.positions, MeshFormat::kObj));
+  folder.write("in/f_2.obj", write_mesh(b.connectivity, b.positions, MeshFormat::kObj));
+  const CommandResult encoded = run_reeb({"encode", folder / "in", "-o", folder / "s.reeb"});
+  INFO(encoded.err);
+  REQUIRE(encoded.exit_code == kExitDone);
+  CHECK_THAT(encoded.err,
+             Contains("f_2.obj: 5 vertices, frame 1 has 4; a new reference starts here"));
+  CHECK(run_reeb({"compare", folder / "in", folder / "s.reeb", "--tolerance", "0.05"}).exit_code ==
+        0);
+  const CommandResult cache = run_reeb({"decode", folder / "s.reeb", "-o", folder / "c.pc2"});
+  CHECK(cache.exit_code == kExitFailed);
+  CHECK_THAT(cache.err, Contains("frame 2"));
+}
+
 TEST_CASE("a picture of one sequence or two") {
   const Encoded files;
   const std::string png = files / "p.png";

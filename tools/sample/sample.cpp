@@ -18,9 +18,9 @@ Maker maker(const std::string& name) {
 
 const std::vector<SampleInfo>& samples() {
   static const std::vector<SampleInfo> list{
-      {"creature", "a walking animal, one closed surface with limbs", 100},
-      {"sheet", "a cloth in the wind, with boundary, of quadrilaterals", 100},
-      {"mechanism", "gears, rod and piston, rigid components", 100},
+      {"creature", "a walking animal, one closed surface with limbs"},
+      {"sheet", "a cloth in the wind, with boundary, of quadrilaterals"},
+      {"mechanism", "gears, rod and piston, rigid components"},
   };
   return list;
 }
@@ -28,7 +28,7 @@ const std::vector<SampleInfo>& samples() {
 Status make_sample(const std::string& name, uint32_t frame_count, Sequence& out) {
   for (const SampleInfo& info : samples()) {
     if (name != info.name) continue;
-    out = maker(name)(frame_count == 0 ? info.default_frames : frame_count);
+    out = maker(name)(frame_count);
     out.frame_rate = kFrameRate;
     out.metadata["title"] = "reeb sample " + name;
     return {};

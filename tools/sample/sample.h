@@ -16,7 +16,6 @@ namespace reeb::tools {
 struct SampleInfo {
   const char* name;
   const char* description;
-  uint32_t default_frames;
 };
 
 /// What `make_sample` knows.

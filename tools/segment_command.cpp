@@ -1,0 +1,231 @@
+#include "tools/segment_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "segmentation/motion.h"
+#include "segmentation/skeleton.h"
+#include "tools/command.h"
+#include "tools/io/output_set.h"
+#include "tools/io/read_sequence.h"
+#include "tools/segment_files.h"
+#include "tools/segment_picture.h"
+#include "tools/text.h"
+
+namespace reeb::tools {
+namespace {
+
+constexpr uint32_t kDefaultColumns = 4;
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string mesh, graph, picture;
+  uint32_t regions = 0;
+  uint32_t columns = kDefaultColumns;
+  uint32_t tile = 400;
+  double azimuth = 35;
+  double elevation = 12;
+  bool z_up = false;
+  bool overwrite = false;
+  unsigned threads = 0;
+  ConsoleOptions console;
+};
+
+// Every face as a fan.
+std::vector<uint32_t> triangles_of(const Connectivity& connectivity) {
+  std::vector<uint32_t> triangles;
+  const uint32_t* corner = connectivity.corners.data();
+  for (const uint32_t size : connectivity.face_sizes) {
+    for (uint32_t i = 2; i < size; ++i) {
+      triangles.insert(triangles.end(), {corner[0], corner[i - 1], corner[i]});
+    }
+    corner += size;
+  }
+  return triangles;
+}
+
+/// The segmentation of the first shot and everything that is made of it.
+class Segmented {
+ public:
+  Segmented(const Shot& shot, const Options& options)
+      : shot_(shot),
+        triangles_(triangles_of(shot.connectivity)),
+        result_(segmentation::segment(shot.frame(0), triangles_)),
+        skeleton_(result_, shot.frame(0), triangles_),
+        labels_(result_.labels) {
+    if (options.regions > 0) follow_motion(options.regions);
+  }
+
+  const segmentation::Result& result() const { return result_; }
+  std::string summary() const {
+    const auto& graph = result_.graph;
+    return counted(result_.feature_points.size(), "extremity") + ", " +
+           counted(graph.arcs.size(), "arc") + ", " + counted(graph.loops(), "loop") + ", " +
+           counted(region_count(), "region") + ", motion error " +
+           brief(segmentation::motion_error(input(), labels_)) + " %";
+  }
+
+  std::string mesh() const { return coloured_ply(shot_.connectivity, shot_.frame(0), labels_); }
+
+  std::string graph(bool as_obj) const {
+    if (as_obj) return graph_obj(result_.graph, skeleton_.place(shot_.frame(0)));
+    std::vector<segmentation::SkeletonPose> poses;
+    for (uint32_t t = 0; t < shot_.frame_count; ++t)
+      poses.push_back(skeleton_.place(shot_.frame(t)));
+    return graph_json(result_, poses);
+  }
+
+  Status picture(const Options& o, std::string& png) const {
+    const uint32_t columns = std::min(o.columns, shot_.frame_count);
+    std::vector<PictureFrame> frames;
+    for (uint32_t i = 0; i < columns; ++i) {
+      const uint32_t t = static_cast<uint32_t>(uint64_t{i} * shot_.frame_count / columns);
+      frames.push_back({shot_.frame(t), skeleton_.place(shot_.frame(t))});
+    }
+    const PictureSubject subject{triangles_, labels_, &result_.graph};
+    const Camera camera = Camera::orbit(o.azimuth, o.elevation, o.z_up);
+    return render_povray(povray_scene(subject, frames, camera, o.tile), o.threads, png);
+  }
+
+ private:
+  segmentation::MotionInput input() const { return {shot_.frame(0), triangles_, shot_.positions}; }
+
+  uint32_t region_count() const {
+    return labels_.empty() ? 0 : *std::max_element(labels_.begin(), labels_.end()) + 1;
+  }
+
+  void follow_motion(uint32_t regions) {
+    const segmentation::MotionPartitions partitions(input(), result_);
+    if (partitions.finest() == 0) return;
+    labels_ = segmentation::adjust_borders(
+        input(), partitions.labels(std::min(regions, partitions.finest())));
+  }
+
+  const Shot& shot_;
+  std::vector<uint32_t> triangles_;
+  segmentation::Result result_;
+  segmentation::Skeleton skeleton_;
+  std::vector<uint32_t> labels_;
+};
+
+bool has_extension(const std::string& name, const char* extension) {
+  return std::filesystem::path(name).extension() == extension;
+}
+
+Status write_all(const Options& o, const Segmented& segmented) {
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
+  if (!o.mesh.empty()) files.emplace_back(o.mesh, segmented.mesh());
+  if (!o.graph.empty())
+    files.emplace_back(o.graph, segmented.graph(has_extension(o.graph, ".obj")));
+  if (!o.picture.empty()) {
+    std::string png;
+    if (Status status = segmented.picture(o, png); !status.ok()) return status;
+    files.emplace_back(o.picture, std::move(png));
+  }
+  OutputSet output(o.overwrite);
+  std::vector<std::filesystem::path> names;
+  for (const auto& [name, bytes] : files) names.push_back(name);
+  Status status = output.prepare(names);
+  for (const auto& [name, bytes] : files) {
+    if (status.ok()) status = output.write(name, bytes);
+  }
+  return status.ok() ? output.commit() : status;
+}
+
+std::string wrong_usage(const Options& o) {
+  if (o.mesh.empty() && o.graph.empty() && o.picture.empty()) {
+    return "nothing to write; give -o, --graph or --png";
+  }
+  if (!o.mesh.empty() && !has_extension(o.mesh, ".ply")) return o.mesh + " does not end in .ply";
+  if (!o.graph.empty() && !has_extension(o.graph, ".obj") && !has_extension(o.graph, ".json")) {
+    return o.graph + " does not end in .obj or .json";
+  }
+  return {};
+}
+
+int run(const Options& o) {
+  Console console(o.console);
+  if (const std::string wrong = wrong_usage(o); !wrong.empty()) {
+    console.error(wrong);
+    return kExitUsage;
+  }
+  for (const std::string& name : {o.mesh, o.graph, o.picture}) {
+    if (name.empty()) continue;
+    if (Status status = check_target(name, o.overwrite); !status.ok()) return fail(console, status);
+  }
+  Sequence sequence;
+  ReadReport report;
+  Status status = read_sequence(
+      o.inputs, {.threads = o.threads, .progress = console.bar("reading")}, sequence, report);
+  if (!status.ok()) return fail(console, status);
+  console.say_all(report.notes);
+  if (sequence.shots.size() > 1) console.say("only the frames of the first faces are segmented");
+  const Segmented segmented(sequence.shots.front(), o);
+  console.say_all(segmented.result().warnings);
+  status = write_all(o, segmented);
+  if (!status.ok()) return fail(console, status);
+  console.say(segmented.summary());
+  return kExitDone;
+}
+
+void add_picture_options(CLI::App& command, Options& o) {
+  const std::string group = "Picture";
+  command.add_option("--frames", o.columns, "Frames side by side, 1 to 20; default 4")
+      ->check(CLI::Range(1u, 20u).description(""))
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--tile", o.tile, "Width of a frame in pixels, 16 to 4096; default 400")
+      ->check(CLI::Range(16u, 4096u).description(""))
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_option("--azimuth", o.azimuth,
+                  "Degrees about the upright axis; 0 = from the front (+z), 90 = from +x; "
+                  "default 35")
+      ->type_name("A")
+      ->group(group);
+  command.add_option("--elevation", o.elevation, "Degrees above the ground; default 12")
+      ->type_name("A")
+      ->group(group);
+  command.add_flag("--z-up", o.z_up, "z is upright, not y")->group(group);
+}
+
+}  // namespace
+
+void add_segment_command(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("segment", "Show the regions and the Reeb graph of a sequence");
+  auto o = std::make_shared<Options>();
+  command
+      ->add_option("INPUT", o->inputs,
+                   "A folder, files, a quoted pattern, a point cache with its mesh beside it, or a "
+                   ".reeb file")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", o->mesh, "First frame coloured by region, a .ply file")
+      ->type_name("FILE");
+  command
+      ->add_option("--graph", o->graph,
+                   "The graph: .obj with the skeleton of the first frame, or .json with all "
+                   "attributes and the skeleton of every frame")
+      ->type_name("FILE");
+  command
+      ->add_option("--png", o->picture,
+                   "A picture of several frames with the graph inside; needs the program povray")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--regions", o->regions,
+          "Cut and merge by motion into this many regions, 1 to 2000; default: one per arc "
+          "and branching of the graph")
+      ->check(CLI::Range(1u, 2000u).description(""))
+      ->type_name("N");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  add_picture_options(*command, *o);
+  add_threads_option(*command, o->threads);
+  add_console_options(*command, o->console);
+  command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace reeb::tools
