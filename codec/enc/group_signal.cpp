@@ -1,5 +1,8 @@
 #include "codec/enc/group_signal.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace reeb {
 
 GroupSignal make_group_signal(const Shot& shot, uint32_t first, uint32_t count) {
@@ -17,7 +20,9 @@ GroupSignal make_group_signal(const Shot& shot, uint32_t first, uint32_t count) 
         (frame.cast<double>().rowwise() - mean).cast<float>();
   }
   for (Eigen::Index v = 0; v < vertices; ++v) {
-    out.energy += out.trajectories.row(v).cast<double>().squaredNorm();
+    const double square = out.trajectories.row(v).cast<double>().squaredNorm();
+    out.energy += square;
+    out.largest = std::max(out.largest, std::sqrt(square));
   }
   return out;
 }

@@ -16,6 +16,7 @@ struct GroupSignal {
       trajectories;      ///< V x 3F, trajectories of the vertices in input order, less `mean`
   Eigen::VectorXd mean;  ///< 3F, mean trajectory
   double energy = 0;     ///< sum of squares of `trajectories`
+  double largest = 0;    ///< norm of the longest trajectory
 
   uint32_t vertices() const { return static_cast<uint32_t>(trajectories.rows()); }
 };

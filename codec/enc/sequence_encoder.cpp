@@ -15,6 +15,8 @@ constexpr double kGridPerError =
     2.0;  ///< first guess of the grid step, in RMS errors per coordinate
 constexpr double kGuessedPrecision =
     2e-4;  ///< of the extent: error expected where the target is a size
+constexpr double kMostSteps =
+    1 << 20;  ///< of a coefficient; binary32 keeps no more beside a fraction
 constexpr double kRoughTolerance = 0.05;
 constexpr double kTolerance = 0.008;
 constexpr int kRoughTrials = 6;
@@ -55,11 +57,15 @@ bool SequenceEncoder::advance(double part) {
   return !options_.progress || options_.progress(done_);
 }
 
+double SequenceEncoder::kg_of(double squared_error) const {
+  return energy_ > 0 ? 100 * std::sqrt(squared_error / energy_) : 0;
+}
+
 double SequenceEncoder::excess_of(const Attempt& a) const {
   double measured = 0;
   switch (options_.target) {
     case Target::kKg:
-      measured = energy_ > 0 ? 100 * std::sqrt(a.squared_error / energy_) : 0;
+      measured = kg_of(exact_ ? measure(a).squared : a.squared_error);
       break;
     case Target::kMaxError:
       measured = measure(a).largest;
@@ -100,7 +106,8 @@ Status SequenceEncoder::attempt(double q, Attempt& out) {
 Status SequenceEncoder::search(double tolerance, int max_trials) {
   Status status;
   std::vector<Attempt> attempts;
-  const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials};
+  const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials,
+                                         least_step()};
   const StepTrial found = search_step(best_.q, search_options, [&](double q) {
     Attempt a;
     if (status.ok()) status = attempt(q, a);
@@ -120,6 +127,12 @@ Status SequenceEncoder::search(double tolerance, int max_trials) {
     break;
   }
   return {};
+}
+
+double SequenceEncoder::least_step() const {
+  double largest = 0;
+  for (const auto& shot : shots_) largest = std::max(largest, shot->largest_coefficient());
+  return largest / kMostSteps;
 }
 
 double SequenceEncoder::coordinate_error() const {
@@ -203,7 +216,7 @@ EncodeStats SequenceEncoder::stats() const {
   EncodeStats out;
   out.bytes = best_.bytes.size();
   out.bpvf = 8 * static_cast<double>(out.bytes) / vertex_frames_;
-  out.kg = energy_ > 0 ? 100 * std::sqrt(sums.squared / energy_) : 0;
+  out.kg = kg_of(sums.squared);
   out.rmse = std::sqrt(sums.squared / vertex_frames_);
   out.max_error = sums.largest;
   ContainerReader container;
@@ -238,6 +251,11 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   if (Status s = choose_regions(); !s.ok()) return s;
   if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
   stats = this->stats();
+  if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {
+    exact_ = true;  // so little error is asked for that rounding to binary32 counts
+    if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
+    stats = this->stats();
+  }
   if (best_.excess > 0) return unreachable(stats);
   out = std::move(best_.bytes);
   return {};

@@ -31,6 +31,7 @@ class SequenceEncoder {
  private:
   /// An attempt with the current grids and regions.
   Status attempt(double q, Attempt& out);
+  double kg_of(double squared_error) const;
   double excess_of(const Attempt& a) const;
   ErrorSums measure(const Attempt& a) const;
   EncodeStats stats() const;
@@ -45,6 +46,7 @@ class SequenceEncoder {
   Status set_grids(double coordinate_error);
   void set_regions(uint32_t count);
   double coordinate_error() const;
+  double least_step() const;
   bool advance(double part);
 
   const Sequence& sequence_;
@@ -56,6 +58,7 @@ class SequenceEncoder {
   double slope_ =
       0;  ///< squared error that one bit buys, measured between two attempts; 0 while unknown
   double done_ = 0;
+  bool exact_ = false;  ///< measure the KG error on positions instead of by the normal equations
 };
 
 }  // namespace reeb

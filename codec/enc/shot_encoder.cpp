@@ -51,6 +51,7 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
   for (const uint32_t length : lengths) {
     GroupSignal signal = make_group_signal(shot, first, length);
     energy_ += signal.energy;
+    largest_ = std::max(largest_, signal.largest);
     groups_.push_back({first,
                        std::make_unique<GroupEncoder>(std::move(signal), fast_profile_, threads),
                        nullptr});

@@ -44,9 +44,10 @@ class ShotEncoder {
 
   double energy() const {
     return energy_;
-  }                              ///< sum of squares about the mean of each frame and axis
-  double vertex_frames() const;  ///< vertices times frames
-  double longest_side() const;   ///< of the first frame's bounding box
+  }  ///< sum of squares about the mean of each frame and axis
+  double largest_coefficient() const { return largest_; }  ///< bound on any, world units
+  double vertex_frames() const;                            ///< vertices times frames
+  double longest_side() const;                             ///< of the first frame's bounding box
 
  private:
   struct Group {
@@ -67,6 +68,7 @@ class ShotEncoder {
   std::vector<Group> groups_;
   std::unique_ptr<segmentation::MotionPartitions> partitions_;  ///< made when first needed
   double energy_ = 0;
+  double largest_ = 0;
 };
 
 }  // namespace reeb

@@ -62,14 +62,16 @@ StepTrial search_step(double q0, const StepSearchOptions& options,
                       const std::function<double(double)>& measure) {
   Bracket bracket(options.grows, -options.tolerance / 2);
   StepTrial best;
-  double x = std::log(q0);
+  const double lowest = std::log(std::max(options.least_q, 1e-300));
+  double x = std::max(std::log(q0), lowest);
   for (int i = 0; i < options.max_trials; ++i) {
     const StepTrial trial{std::exp(x), measure(std::exp(x))};
     if (i == 0 || better(trial, best)) best = trial;
     if (trial.excess <= 0 && trial.excess >= -options.tolerance) break;
     bracket.add(x, trial.excess);
-    if (bracket.exhausted()) break;
-    x = bracket.next();
+    const double next = std::max(bracket.next(), lowest);
+    if (bracket.exhausted() || next == x) break;
+    x = next;
   }
   return best;
 }

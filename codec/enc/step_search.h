@@ -17,6 +17,7 @@ struct StepSearchOptions {
   bool grows = true;         ///< the measure grows with q (an error) or falls (a size)
   double tolerance = 0.008;  ///< a trial within [-tolerance, 0] of the target ends the search
   int max_trials = 12;
+  double least_q = 0;  ///< finer steps are not tried
 };
 
 /// Runs `measure(q)` (which returns the excess) from `q0` on, by secants within a bracket. Returns
