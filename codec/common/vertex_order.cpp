@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "codec/common/connectivity.h"
+#include "codec/common/point_predictor.h"
+
 namespace reeb {
 namespace {
 
@@ -40,29 +43,34 @@ OrderPredictor::OrderPredictor(uint32_t vertex_count, std::span<const uint32_t> 
     : vertex_count_(vertex_count),
       triangles_(triangles),
       twins_(pair_half_edges(triangles)),
-      fans_(vertex_count, triangles) {}
+      fans_(vertex_count, triangles),
+      order_(position_order(vertex_count, triangles)),
+      turn_of_(vertex_count) {
+  for (uint32_t turn = 0; turn < vertex_count; ++turn) turn_of_[order_[turn]] = turn;
+}
 
-void OrderPredictor::guess(uint32_t v, const std::vector<uint32_t>& output_index,
+void OrderPredictor::guess(uint32_t turn, const std::vector<uint32_t>& output_index,
                            const FreeIndices& free, GuessMixture& out) {
   out.clear();
   neighbours_.clear();
+  const auto coded = [&](uint32_t v) { return turn_of_[v] < turn; };
   uint32_t kind = kParallelogram;
-  for (const uint32_t h : fans_[v]) {
+  for (const uint32_t h : fans_[order_[turn]]) {
     const uint32_t across = next_half_edge(h);
     const uint32_t a = triangles_[across];
     const uint32_t b = triangles_[next_half_edge(across)];
-    if (a < v) neighbours_.push_back(a);
-    if (b < v) neighbours_.push_back(b);
-    if (a >= v || b >= v || twins_[across] == kNoTwin) continue;
+    if (coded(a)) neighbours_.push_back(turn_of_[a]);
+    if (coded(b)) neighbours_.push_back(turn_of_[b]);
+    if (!coded(a) || !coded(b) || twins_[across] == kNoTwin) continue;
     const uint32_t c = triangles_[next_half_edge(next_half_edge(twins_[across]))];
-    if (c >= v) continue;
+    if (!coded(c)) continue;
     const int64_t index = int64_t{output_index[a]} + output_index[b] - output_index[c];
     if (index < 0 || index >= vertex_count_) continue;
     out.add(kind, int64_t{free.rank(static_cast<uint32_t>(index))} << 8, kScale);
     kind = std::min<uint32_t>(kind + 1, kLastParallelogram);
   }
-  likely_ = v > 0 ? free.rank(output_index[v - 1]) : 0;
-  if (v > 0) out.add(kPrevious, int64_t{likely_} << 8, kScale);
+  likely_ = turn > 0 ? free.rank(output_index[order_[turn - 1]]) : 0;
+  if (turn > 0) out.add(kPrevious, int64_t{likely_} << 8, kScale);
   guess_neighbours(output_index, free, out);
 }
 
@@ -71,10 +79,11 @@ void OrderPredictor::guess_neighbours(const std::vector<uint32_t>& output_index,
                                       const FreeIndices& free, GuessMixture& out) {
   std::sort(neighbours_.rbegin(), neighbours_.rend());
   neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
-  if (!neighbours_.empty()) likely_ = free.rank(output_index[neighbours_[0]]);
   uint32_t kind = kNeighbour;
-  for (const uint32_t n : neighbours_) {
-    out.add(kind, int64_t{free.rank(output_index[n])} << 8, kScale);
+  for (const uint32_t turn : neighbours_) {
+    const uint32_t rank = free.rank(output_index[order_[turn]]);
+    if (kind == kNeighbour) likely_ = rank;
+    out.add(kind, int64_t{rank} << 8, kScale);
     kind = std::min<uint32_t>(kind + 1, kLastNeighbour);
   }
 }

@@ -33,7 +33,7 @@ class FreeIndices {
   uint32_t count_;
 };
 
-/// Makes the guesses for each coding vertex from those before it.
+/// Makes the guesses for each vertex from those before it, in the order of `position_order`.
 class OrderPredictor {
  public:
   // Kinds of guesses; the last of each sort stands for all further ones.
@@ -49,8 +49,10 @@ class OrderPredictor {
 
   /// `triangles`: three coding vertices each.
   OrderPredictor(uint32_t vertex_count, std::span<const uint32_t> triangles);
-  void guess(uint32_t v, const std::vector<uint32_t>& output_index, const FreeIndices& free,
+  void guess(uint32_t turn, const std::vector<uint32_t>& output_index, const FreeIndices& free,
              GuessMixture& out);
+  /// The coding vertex whose turn it is.
+  uint32_t vertex(uint32_t turn) const { return order_[turn]; }
   /// Rank of the best guess after `guess`.
   uint32_t likely() const { return likely_; }
 
@@ -63,7 +65,8 @@ class OrderPredictor {
   std::span<const uint32_t> triangles_;
   std::vector<uint32_t> twins_;
   HalfEdgeFans fans_;
-  std::vector<uint32_t> neighbours_;  // scratch
+  std::vector<uint32_t> order_, turn_of_;
+  std::vector<uint32_t> neighbours_;  // turns of the coded ones
 };
 
 /// Codes `output_index` of every coding vertex, a permutation.
@@ -73,14 +76,15 @@ Status code_vertex_order(Coder& coder, uint32_t vertex_count, std::span<const ui
   FreeIndices free(vertex_count);
   OrderPredictor predictor(vertex_count, triangles);
   GuessMixture guesses(OrderPredictor::kKindCount, OrderPredictor::kMemory);
-  for (uint32_t v = 0; v < vertex_count; ++v) {
-    const uint32_t wanted = free.rank(slot(output_index, v));  // unused when decoding
-    predictor.guess(v, output_index, free, guesses);
-    const uint32_t rank = guesses.code(coder, wanted, free.count(),
+  output_index.resize(vertex_count);
+  for (uint32_t turn = 0; turn < vertex_count; ++turn) {
+    uint32_t& index = output_index[predictor.vertex(turn)];
+    predictor.guess(turn, output_index, free, guesses);
+    const uint32_t rank = guesses.code(coder, free.rank(index), free.count(),
                                        std::min(predictor.likely(), free.count() - 1), 1);
     if (ran_dry(coder)) return Status::corrupt("mesh: the vertex order is cut off");
-    output_index[v] = free.select(rank);
-    free.take(output_index[v]);
+    index = free.select(rank);
+    free.take(index);
   }
   return {};
 }
