@@ -15,7 +15,7 @@ constexpr double kLeastScale = 0.3;   // grid steps; rounding alone makes about 
 constexpr double kOffSurface = 0.05;  // variance along the normal, that in the plane being 1
 
 // Kinds of guesses; each is kept apart by what is known around the vertex (see situation).
-enum Kind : uint32_t { kMean, kFitted, kFittedBySpread, kSingle, kInPlane, kLast };
+enum Kind : uint32_t { kMean, kFitted, kFittedBySpread, kSingle, kInPlane, kLast, kSeam };
 
 uint32_t third_corner(uint32_t h) { return next_half_edge(next_half_edge(h)); }
 
@@ -121,6 +121,7 @@ PointPredictor::PointPredictor(uint32_t point_count, std::span<const uint32_t> t
     : triangles_(triangles),
       twins_(twins),
       fans_(point_count, triangles),
+      seams_(triangles, twins, fans_, point_count),
       coded_(point_count),
       error_(point_count),
       degree_(point_count),
@@ -245,6 +246,11 @@ void PointPredictor::start(uint32_t point, std::span<const int32_t> grid) {
   sum_ = square_sum_ = neighbour_sum_ = mirror_sum_ = completion_sum_ = normal_ = {};
   error_sum_ = axis_error_ = 0;
   singles_.clear();
+  twin_places_.clear();
+  for (const uint32_t p : seams_.find(point)) {
+    const int32_t* xyz = &grid[size_t{p} * 3];
+    twin_places_.push_back({xyz[0], xyz[1], xyz[2]});
+  }
   collect(point, grid);
   set_base(grid);
   set_fitted();
@@ -261,6 +267,7 @@ double PointPredictor::scale(size_t axis) const {
 }
 
 uint32_t PointPredictor::likely(size_t axis) const {
+  if (axis > 0 && !twin_places_.empty()) return static_cast<uint32_t>(twin_places_[0][axis]);
   return static_cast<uint32_t>(std::clamp(std::floor(fitted_[axis] + 0.5), 0.0, double{kGridMax}));
 }
 
@@ -278,6 +285,9 @@ void PointPredictor::guess(size_t axis, GuessMixture& out) const {
   add_guess(kind(kMean), base_[axis], scale, out);
   add_guess(kind(kFittedBySpread), fitted_[axis], spread_, out);
   if (neighbour_count_ == 0) add_guess(kind(kLast), base_[axis], scale, out);
+  for (const auto& place : twin_places_) {
+    add_guess(kSeam * 5 + (axis > 0 ? 1 : 0), place[axis], kLeastScale, out);
+  }
   if (parallelograms_ == 0) return;
   double shift = 0;
   for (size_t k = 0; k < axis; ++k) shift += lower_[axis][k] * whitened_[k];
@@ -297,13 +307,19 @@ void PointPredictor::learn(size_t axis, int32_t value) {
   // Outliers count little.
   const double confidence = 1 / (kLeastScale + neighbour_error_ * neighbour_error_ + error * error);
   weights_[std::min(parallelograms_, 3u)].learn(features_[axis], value - base_[axis], confidence);
+  drop_other_places(axis, value);
   if (axis == 2) finish();
+}
+
+void PointPredictor::drop_other_places(size_t axis, int32_t value) {
+  std::erase_if(twin_places_, [&](const auto& place) { return place[axis] != value; });
 }
 
 void PointPredictor::finish() {
   coded_[point_] = 1;
   error_[point_] = axis_error_ / 3;
   last_ = point_;
+  seams_.add(point_, value_);
   for (const uint32_t n : neighbours_) {
     ++known_[n];
     for (size_t i = 0; i < 3; ++i) known_sum_[n][i] += value_[i];

@@ -11,6 +11,7 @@
 
 #include "codec/common/guess_mixture.h"
 #include "codec/common/half_edge_fans.h"
+#include "codec/common/seam_finder.h"
 
 namespace reeb {
 
@@ -43,7 +44,7 @@ class PointPredictor {
                  std::span<const uint32_t> twins);
 
   static constexpr uint32_t kMemory = 256;  ///< observations, see GuessMixture
-  static constexpr uint32_t kKindCount = 6 * 5;
+  static constexpr uint32_t kKindCount = 6 * 5 + 2;
 
   /// `grid`: [point][xyz], of which those coded before are read.
   void start(uint32_t point, std::span<const int32_t> grid);
@@ -64,11 +65,13 @@ class PointPredictor {
   void set_fitted();
   void set_spread();
   void set_normal_model();
+  void drop_other_places(size_t axis, int32_t value);
   void finish();
 
   std::span<const uint32_t> triangles_;
   std::span<const uint32_t> twins_;
   HalfEdgeFans fans_;
+  SeamFinder seams_;
 
   // Of every point: whether it is coded, its mean error, its neighbours in all and those coded.
   std::vector<uint8_t> coded_;
@@ -86,7 +89,9 @@ class PointPredictor {
   Vec3 normal_ = {};
   double error_sum_ = 0;
   std::vector<Vec3> singles_;
-  Vec3 base_ = {}, fitted_ = {}, value_ = {};
+  std::vector<std::array<int32_t, 3>> twin_places_;  // where a seam may put it, as far as it agrees
+  Vec3 base_ = {}, fitted_ = {};
+  std::array<int32_t, 3> value_ = {};
   std::array<FeatureWeights::Row, 3> features_ = {};  // by axis
   double neighbour_error_ = 0, spread_ = 0, axis_error_ = 0;
   double lower_[3][3] = {};  // Cholesky factor of the residual's covariance
