@@ -85,8 +85,9 @@ Surroundings Field::surroundings(uint32_t row) const {
   return s;
 }
 
-void Field::note(uint32_t row, int32_t residual, uint32_t step) {
-  const uint64_t size = static_cast<uint64_t>(residual < 0 ? -int64_t{residual} : residual);
+void Field::note(uint32_t row, int64_t residual, uint32_t step) {
+  const uint64_t size = std::min<uint64_t>(
+      static_cast<uint64_t>(residual < 0 ? -residual : residual), uint64_t{kMagnitudeCap} << 8);
   const auto magnitude = static_cast<uint32_t>(std::min<uint64_t>(size * step >> 8, kMagnitudeCap));
   magnitude_[row] = magnitude;
   running_ += magnitude;

@@ -50,7 +50,7 @@ class Field {
  private:
   float predict(uint32_t row, const float* plane) const;
   Surroundings surroundings(uint32_t row) const;
-  void note(uint32_t row, int32_t residual, uint32_t step);
+  void note(uint32_t row, int64_t residual, uint32_t step);
   void finish_component(double energy);
 
   const PredictionGraph& graph_;
@@ -74,7 +74,7 @@ void Field::code_component(Residual&& residual) {
     const float prediction = predict(row, plane.data());
     const uint32_t step = kStepTable[graph_.step_level[row]];
     MagnitudeModel::Bins bins(model_, surroundings(row));
-    const int32_t n = residual(row, prediction, step, bins);
+    const int64_t n = residual(row, prediction, step, bins);
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
     plane[row] = prediction + correction;
     // The coarse quarter does not count: its few large residuals say nothing of the rest.

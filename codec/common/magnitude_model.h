@@ -2,6 +2,7 @@
 // sign.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -24,7 +25,7 @@ struct Surroundings {
 class MagnitudeModel {
  public:
   static constexpr uint32_t kBins = 18;  ///< unary decisions; the last one announces an escape
-  static constexpr uint32_t kMaxMagnitude = (1u << 24) - 1;
+  static constexpr uint64_t kMaxMagnitude = (uint64_t{1} << 56) - 1;
 
   using Mixer = BitMixer<6>;
 
@@ -56,45 +57,57 @@ class MagnitudeModel {
 
   MagnitudeModel();
 
-  /// Codes and learns a residual, |value| <= kMaxMagnitude.
+  /// The next magnitude down that has a code: past kMantissaBits the low bits are not coded, so
+  /// that a far outlier costs little more than binary32 can tell of it.
+  static uint64_t representable(uint64_t magnitude) {
+    if (magnitude < kBins) return magnitude;
+    const uint64_t target = magnitude - kBins + 1;
+    const int dropped = std::max(0, static_cast<int>(std::bit_width(target)) - 1 - kMantissaBits);
+    return (target >> dropped << dropped) + kBins - 1;
+  }
+
+  /// Codes and learns a residual of representable magnitude, |value| <= kMaxMagnitude.
   template <class Coder>
-  int32_t code(Coder& coder, Bins& bins, int32_t value) {
-    const auto wanted = static_cast<uint32_t>(value < 0 ? -value : value);
-    uint32_t magnitude = 0;
-    while (magnitude < kBins) {
-      const Mixer::Prediction& bin = bins[magnitude];
-      const bool more = coder.code(magnitude < wanted, bin.p1);
+  int64_t code(Coder& coder, Bins& bins, int64_t value) {
+    const auto wanted = static_cast<uint64_t>(value < 0 ? -value : value);
+    uint32_t unary = 0;
+    while (unary < kBins) {
+      const Mixer::Prediction& bin = bins[unary];
+      const bool more = coder.code(unary < wanted, bin.p1);
       mixer_.update(bin, more);
       if (!more) break;
-      ++magnitude;
+      ++unary;
     }
-    if (magnitude == kBins) magnitude += code_escape(coder, bins.escape(), wanted - kBins);
-    if (magnitude == 0) return 0;
+    if (unary == 0) return 0;
+    uint64_t magnitude = unary;
+    if (unary == kBins) magnitude += code_escape(coder, bins.escape(), wanted - kBins);
     const bool negative = coder.code(value < 0, kEvenOdds);
-    const auto signed_magnitude = static_cast<int32_t>(magnitude);
+    const auto signed_magnitude = static_cast<int64_t>(magnitude);
     return negative ? -signed_magnitude : signed_magnitude;
   }
 
  private:
   static constexpr uint32_t kEscapeClasses = 8;
-  static constexpr uint32_t kEscapeLengths = 24;
+  static constexpr uint32_t kEscapeLengths = 56;
+  static constexpr int kMantissaBits = 24;
   static constexpr uint32_t kEscapeLimit = 30;
 
   static Context context(const Surroundings& s);
   Mixer::Prediction predict(const Context& c, uint32_t bin) const;
 
   template <class Coder>
-  uint32_t code_escape(Coder& coder, uint32_t escape_class, uint32_t excess) {
-    const uint32_t target = excess + 1;
+  uint64_t code_escape(Coder& coder, uint32_t escape_class, uint64_t excess) {
+    const uint64_t target = excess + 1;
     const auto wanted = static_cast<uint32_t>(std::bit_width(target)) - 1;
     auto& lengths = escape_[escape_class];
     uint32_t length = 0;
     while (length < kEscapeLengths - 1 &&
            lengths[length].code(coder, length < wanted, kEscapeLimit))
       ++length;
-    uint32_t coded = 1;
+    uint64_t coded = 1;
     for (uint32_t i = length; i-- > 0;) {
-      coded = coded << 1 | (coder.code((target >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
+      const bool sent = i + kMantissaBits >= length;
+      coded = coded << 1 | (sent && coder.code((target >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
     }
     return coded - 1;
   }

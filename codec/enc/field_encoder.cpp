@@ -25,11 +25,12 @@ FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double la
     importance_.push_back(std::exp2(mass_exponent * level / 8.0));
 }
 
-int32_t FieldEncoder::decide(double residual, double step, double importance,
+int64_t FieldEncoder::decide(double residual, double step, double importance,
                              MagnitudeModel::Bins& bins) const {
-  const double size = std::min(std::abs(residual) / step, double{MagnitudeModel::kMaxMagnitude});
-  const auto nearest = static_cast<uint32_t>(size + 0.5);
-  uint32_t best = nearest;
+  const auto largest = static_cast<double>(MagnitudeModel::kMaxMagnitude / 2);
+  const double size = std::min(std::abs(residual) / step, largest);
+  const uint64_t nearest = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
+  uint64_t best = nearest;
   if (nearest > 0 && nearest <= MagnitudeModel::kBins) {
     double best_cost = 1e300;
     const auto consider = [&](uint32_t n) {
@@ -40,18 +41,18 @@ int32_t FieldEncoder::decide(double residual, double step, double importance,
         best = n;
       }
     };
-    consider(nearest);
-    consider(nearest - 1);
+    consider(static_cast<uint32_t>(nearest));
+    consider(static_cast<uint32_t>(nearest) - 1);
     if (nearest > 1) consider(0);
   }
-  return residual < 0 ? -static_cast<int32_t>(best) : static_cast<int32_t>(best);
+  return residual < 0 ? -static_cast<int64_t>(best) : static_cast<int64_t>(best);
 }
 
 double FieldEncoder::code_component(const float* target) {
   const auto quantize = [&](uint32_t row, float prediction, uint32_t step,
                             MagnitudeModel::Bins& bins) {
     const double residual = static_cast<double>(target[row]) - static_cast<double>(prediction);
-    const int32_t n = decide(residual, step / 65536.0, importance_[row], bins);
+    const int64_t n = decide(residual, step / 65536.0, importance_[row], bins);
     return field_.model().code(recorder_, bins, n);
   };
   field_.code_component(quantize);

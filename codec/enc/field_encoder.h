@@ -23,7 +23,7 @@ class FieldEncoder {
   const DecisionRecorder& recorder() const { return recorder_; }
 
  private:
-  int32_t decide(double residual, double step, double importance, MagnitudeModel::Bins& bins) const;
+  int64_t decide(double residual, double step, double importance, MagnitudeModel::Bins& bins) const;
 
   Field& field_;
   double lambda_;
