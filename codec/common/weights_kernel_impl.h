@@ -26,21 +26,22 @@ void accumulate(WeightBatch& batch, const float* values, double inverse_noise, b
   }
 }
 
-/// A = L D L^T in place: L below the diagonal, 1/D in `inverse`. The floor on D only guards against
-/// rounding.
+/// A = L D L^T in place: L below the diagonal, 1/D in `inverse`. Where rounding has eaten a pivot
+/// its 1/D is 0, which takes the neighbour out of the system.
 inline void factorise(uint32_t n, Lanes* a, Lanes* inverse) {
-  const Lanes floor = Lanes{} + 0x1p-10;
+  const Lanes zero{};
+  const Lanes one = zero + 1.0;
   Lanes scaled[kMaxNeighbours];
   Lanes diagonal[kMaxNeighbours];
   for (uint32_t j = 0; j < n; ++j) {
     Lanes d = a[packed(j, j)];
+    const Lanes floor = d * 0x1p-42;
     for (uint32_t k = 0; k < j; ++k) {
       scaled[k] = a[packed(j, k)] * diagonal[k];
       d -= a[packed(j, k)] * scaled[k];
     }
-    d = d > floor ? d : floor;
-    diagonal[j] = d;
-    inverse[j] = 1.0 / d;
+    diagonal[j] = d > floor ? d : zero;
+    inverse[j] = d > floor ? 1.0 / (d > floor ? d : one) : zero;
     for (uint32_t i = j + 1; i < n; ++i) {
       Lanes t = a[packed(i, j)];
       for (uint32_t k = 0; k < j; ++k) t -= a[packed(i, k)] * scaled[k];
