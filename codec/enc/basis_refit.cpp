@@ -38,7 +38,7 @@ BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transfo
   gram_ = gram_.selfadjointView<Eigen::Lower>();
   const double ridge = kRidge + kRelativeRidge * gram_.trace() / static_cast<double>(k);
   const Eigen::MatrixXd normal = gram_ + ridge * Eigen::MatrixXd::Identity(k, k);
-  const Eigen::MatrixXd right = projection_ / q + kRidge * transform.leftCols(k).transpose();
+  const Eigen::MatrixXd right = projection_ / q + ridge * transform.leftCols(k).transpose();
   basis_ = normal.llt().solve(right).transpose();
 }
 

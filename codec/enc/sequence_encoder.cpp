@@ -15,8 +15,7 @@ constexpr double kGridPerError =
     2.0;  ///< first guess of the grid step, in RMS errors per coordinate
 constexpr double kGuessedPrecision =
     2e-4;  ///< of the extent: error expected where the target is a size
-constexpr double kMostSteps =
-    1 << 20;  ///< of a coefficient; binary32 keeps no more beside a fraction
+constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kRoughTolerance = 0.05;
 constexpr double kTolerance = 0.008;
 constexpr int kRoughTrials = 6;
