@@ -151,6 +151,22 @@ TEST_CASE("values far beyond the unary code survive", "[field]") {
   CHECK(decoded[1][47] == Approx(-9e6f).margin(1));
 }
 
+TEST_CASE("values beyond any unit come back to the precision of binary32", "[field]") {
+  const Shape shape = torus(8, 6);
+  const Surface s(shape);
+  Planes targets(4, std::vector<float>(48, 0.25f));
+  targets[0][0] = 3.3333333e14f;
+  targets[1][47] = -1.234567e12f;
+  for (size_t r = 0; r < 48; ++r) targets[2][r] = static_cast<float>(1e13 + 1e12 * std::sin(r));
+  const Coded coded = encode(s, targets, false, 0.1);
+  const Planes decoded = decode(s, coded.bytes, 4, false, 1);
+  for (size_t k = 0; k < 4; ++k) {
+    CHECK(same_bits(decoded[k], coded.planes[k]));
+    for (size_t r = 0; r < 48; ++r)
+      CHECK(decoded[k][r] == Approx(targets[k][r]).epsilon(1e-6).margin(4e7));
+  }
+}
+
 TEST_CASE("a temporal field decodes to the bits that its encoder kept", "[field]") {
   const TemporalGraph graph = build_temporal_graph(23);
   std::mt19937 random(4);

@@ -1,0 +1,101 @@
+#include <catch2/catch.hpp>
+
+#include "tests/codec/round_trip.h"
+#include "tests/codec/shapes.h"
+
+using namespace reeb;
+using namespace reeb::test;
+
+namespace {
+
+EncodeOptions aim(Target target, double value) {
+  EncodeOptions options = quick_options();
+  options.target = target;
+  options.target_value = value;
+  return options;
+}
+
+/// Not above the target, and within 1 % of it.
+void check_met(double measured, double wanted) {
+  CHECK(measured <= wanted);
+  CHECK(measured >= 0.99 * wanted);
+}
+
+}  // namespace
+
+TEST_CASE("a KG error is met within one per cent", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  for (const double kg : {0.02, 0.3}) {
+    const Encoded out = encode_or_fail(sequence, aim(Target::kKg, kg));
+    check_met(measure(sequence, decode_or_fail(out.bytes)).kg, kg);
+  }
+}
+
+TEST_CASE("a largest error is met", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  const Encoded out = encode_or_fail(sequence, aim(Target::kMaxError, 0.01));
+  check_met(measure(sequence, decode_or_fail(out.bytes)).largest, 0.01);
+}
+
+TEST_CASE("bits per vertex and frame are met within one per cent", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  const Encoded out = encode_or_fail(sequence, aim(Target::kBpvf, 1.0));
+  check_met(8.0 * static_cast<double>(out.bytes.size()) / vertex_frames(sequence), 1.0);
+}
+
+TEST_CASE("a size is met within one per cent", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  const Encoded out = encode_or_fail(sequence, aim(Target::kSize, 9000));
+  check_met(static_cast<double>(out.bytes.size()), 9000);
+}
+
+TEST_CASE("the fast profile meets its target too", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  EncodeOptions options = aim(Target::kKg, 0.1);
+  options.fast_profile = true;
+  const Encoded fast = encode_or_fail(sequence, options);
+  check_met(measure(sequence, decode_or_fail(fast.bytes)).kg, 0.1);
+  options.fast_profile = false;
+  CHECK(encode_or_fail(sequence, options).bytes.size() < fast.bytes.size());
+}
+
+TEST_CASE("less error takes more bytes", "[rate_control]") {
+  const Sequence sequence = sequence_of({animate(torus(16, 11), 12)});
+  size_t before = 0;
+  for (const double kg : {2.0, 0.5, 0.1, 0.02, 0.004}) {
+    const Encoded out = encode_or_fail(sequence, aim(Target::kKg, kg));
+    CHECK(out.bytes.size() > before);
+    CHECK(measure(sequence, decode_or_fail(out.bytes)).kg <= kg);
+    before = out.bytes.size();
+  }
+}
+
+TEST_CASE("targets that nothing meets are refused with the nearest figures", "[rate_control]") {
+  const Sequence sequence = sequence_of({animate(torus(16, 11), 5)});
+  for (const auto& [target, value] : {std::pair(Target::kSize, 20.0),
+                                      {Target::kBpvf, 1e-4},
+                                      {Target::kKg, 1e-12},
+                                      {Target::kMaxError, 1e-15}}) {
+    Bytes bytes(3, 7);
+    EncodeStats stats;
+    const Status status = encode(sequence, aim(target, value), bytes, stats);
+    CHECK(status.code() == StatusCode::kInvalidArgument);
+    CHECK(status.message().find("out of reach") != std::string::npos);
+    CHECK(bytes.empty());
+  }
+}
+
+TEST_CASE("targets near the precision of the input are met or refused", "[rate_control]") {
+  // Rounding to binary32 alone is an error of some 3e-6 %.
+  const Sequence sequence = sequence_of({animate(torus(16, 11), 20)});
+  bool met = true;
+  for (const double kg : {1e-3, 1e-4, 5e-5, 2e-5, 1e-5, 1e-6, 1e-7}) {
+    INFO(kg);
+    Bytes bytes;
+    EncodeStats stats;
+    met = encode(sequence, aim(Target::kKg, kg), bytes, stats).ok();
+    if (kg > 5e-5) CHECK(met);
+    if (met) CHECK(measure(sequence, decode_or_fail(bytes)).kg <= kg);
+  }
+  CHECK_FALSE(met);
+}
