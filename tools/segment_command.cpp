@@ -60,7 +60,8 @@ class Segmented {
   const segmentation::Result& result() const { return result_; }
   std::string summary() const {
     const auto& graph = result_.graph;
-    return counted(result_.feature_points.size(), "extremity") + ", " +
+    const size_t extremities = result_.feature_points.size();
+    return grouped(extremities) + (extremities == 1 ? " extremity, " : " extremities, ") +
            counted(graph.arcs.size(), "arc") + ", " + counted(graph.loops(), "loop") + ", " +
            counted(region_count(), "region") + ", motion error " +
            brief(segmentation::motion_error(input(), labels_)) + " %";
@@ -140,6 +141,9 @@ std::string wrong_usage(const Options& o) {
   if (!o.mesh.empty() && !has_extension(o.mesh, ".ply")) return o.mesh + " does not end in .ply";
   if (!o.graph.empty() && !has_extension(o.graph, ".obj") && !has_extension(o.graph, ".json")) {
     return o.graph + " does not end in .obj or .json";
+  }
+  if (!o.picture.empty() && !has_extension(o.picture, ".png")) {
+    return o.picture + " does not end in .png";
   }
   return {};
 }
