@@ -4,12 +4,6 @@
 
 namespace reeb::segmentation {
 
-double heat_kernel(const Eigenpairs& pairs, double t, uint32_t x, uint32_t y) {
-  return ((-t * pairs.values).array().exp() * pairs.vectors.row(x).transpose().array() *
-          pairs.vectors.row(y).transpose().array())
-      .sum();
-}
-
 Eigen::MatrixXd diffusion_embedding(const Eigenpairs& pairs, double t) {
   return (-t * pairs.values).array().exp().matrix().asDiagonal() * pairs.vectors.transpose();
 }

@@ -1,4 +1,4 @@
-// Heat kernel and diffusion distance from the spectrum of a surface.
+// Diffusion distance from the spectrum of a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,10 +6,6 @@
 #include "segmentation/eigenpairs.h"
 
 namespace reeb::segmentation {
-
-/// Heat kernel k_t(x, y) = sum_i exp(-lambda_i t) phi_i(x) phi_i(y), summed over the given
-/// eigenpairs.
-double heat_kernel(const Eigenpairs& pairs, double t, uint32_t x, uint32_t y);
 
 /// Coordinates in which Euclidean distance is the diffusion distance
 /// d_t(x, y)^2 = sum_i exp(-2 lambda_i t) (phi_i(x) - phi_i(y))^2. One column per vertex.

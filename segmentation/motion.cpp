@@ -39,6 +39,8 @@ std::vector<uint32_t> patches_of(const MotionInput& input, const Pieces& pieces,
     if (pieces.piece[v] != kNone) patches[v] = local[pieces.piece[v]][pieces.local[v]];
   }
   if (count == 0) return std::vector<uint32_t>(labels.size(), 0);
+  // Thousands of tiny pieces: the segmentation has grouped them already.
+  if (count > 2 * kMaxPatches) return {labels.begin(), labels.end()};
   std::vector<double> unused(labels.size());
   label_by_nearest(input.positions, patches, unused);
   return patches;

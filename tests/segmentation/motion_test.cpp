@@ -185,6 +185,22 @@ TEST_CASE("motion functions take empty and still input") {
   CHECK(MotionPartitions(cloud, segment(hinge.mesh.positions, {})).finest() == 1);
 }
 
+TEST_CASE("thousands of pieces start from the regions of the segmentation") {
+  Mesh mesh;
+  for (uint32_t i = 0; i < 5000; ++i) {
+    const float x = static_cast<float>(i % 100), y = static_cast<float>(i / 100);
+    mesh.positions.insert(mesh.positions.end(), {x, y, 0, x + 0.5F, y, 0, x, y + 0.5F, 0});
+    mesh.triangles.insert(mesh.triangles.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const MotionInput input = {mesh.positions, mesh.triangles, mesh.positions};
+  Options options;
+  options.max_regions = 50;
+  const Result result = segment(mesh.positions, mesh.triangles, options);
+  const MotionPartitions partitions(input, result);
+  CHECK(partitions.finest() == 50);
+  CHECK(regions_of(partitions.labels(7)) == 7);
+}
+
 TEST_CASE("the skeleton of a tube runs along its axis and follows the motion") {
   const Hinge hinge(100);  // moves as a whole
   const Result result = segment(hinge.mesh.positions, hinge.mesh.triangles);

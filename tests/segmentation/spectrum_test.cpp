@@ -23,6 +23,15 @@ Surface triangle(const Point& a, const Point& b, const Point& c) {
   return surface;
 }
 
+// k_t(x, y) = sum_i exp(-lambda_i t) phi_i(x) phi_i(y)
+double heat_kernel(const Eigenpairs& pairs, double t, uint32_t x, uint32_t y) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    sum += std::exp(-pairs.values[i] * t) * pairs.vectors(x, i) * pairs.vectors(y, i);
+  }
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("weights and areas of a right triangle") {
