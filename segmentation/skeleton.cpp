@@ -14,14 +14,32 @@ namespace {
 // Bands of an arc's region across the way from one node to the other.
 constexpr size_t kBands = 6;
 
-Position mean_of(const std::vector<uint32_t>& vertices, std::span<const float> frame) {
+// Area around each vertex, so that a dense side of a limb does not draw its middle over.
+std::vector<double> vertex_areas(std::span<const float> positions,
+                                 std::span<const uint32_t> triangles) {
+  std::vector<double> areas(positions.size() / 3, 0.0);
+  const Pieces pieces = split_pieces(positions, triangles, false);
+  for (uint32_t p = 0; p < pieces.surfaces.size(); ++p) {
+    const Surface& surface = pieces.surfaces[p];
+    for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
+      const double third = triangle_area(surface, t) / 3;
+      for (const uint32_t v : surface.triangles[t]) areas[pieces.original[p][v]] += third;
+    }
+  }
+  return areas;
+}
+
+Position mean_of(const std::vector<uint32_t>& vertices, std::span<const double> areas,
+                 std::span<const float> frame) {
+  double total = 0;
+  for (const uint32_t v : vertices) total += areas[v];
   std::array<double, 3> sum = {};
   for (const size_t v : vertices) {
-    for (size_t i = 0; i < 3; ++i) sum[i] += frame[3 * v + i];
+    const double weight = total > 0 ? areas[v] / total : 1 / static_cast<double>(vertices.size());
+    for (size_t i = 0; i < 3; ++i) sum[i] += weight * frame[3 * v + i];
   }
   Position mean = {};
-  const double count = static_cast<double>(std::max<size_t>(vertices.size(), 1));
-  for (size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i] / count);
+  for (size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i]);
   return mean;
 }
 
@@ -131,7 +149,7 @@ class Rigger {
 
 Skeleton::Skeleton(const Result& segmentation, std::span<const float> positions,
                    std::span<const uint32_t> triangles)
-    : regions_(segmentation.region_count) {
+    : areas_(vertex_areas(positions, triangles)), regions_(segmentation.region_count) {
   for (uint32_t v = 0; v < segmentation.labels.size(); ++v) {
     regions_[segmentation.labels[v]].push_back(v);
   }
@@ -146,11 +164,11 @@ Skeleton::Skeleton(const Result& segmentation, std::span<const float> positions,
 
 SkeletonPose Skeleton::place(std::span<const float> frame) const {
   SkeletonPose pose;
-  for (const Vertices& node : nodes_) pose.nodes.push_back(mean_of(node, frame));
-  for (const Vertices& region : regions_) pose.regions.push_back(mean_of(region, frame));
+  for (const Vertices& node : nodes_) pose.nodes.push_back(mean_of(node, areas_, frame));
+  for (const Vertices& region : regions_) pose.regions.push_back(mean_of(region, areas_, frame));
   for (const auto& bands : arcs_) {
     pose.arcs.emplace_back();
-    for (const Vertices& band : bands) pose.arcs.back().push_back(mean_of(band, frame));
+    for (const Vertices& band : bands) pose.arcs.back().push_back(mean_of(band, areas_, frame));
   }
   return pose;
 }

@@ -17,12 +17,12 @@ struct SkeletonPose {
   std::vector<Position> nodes;  ///< per node of the graph
   std::vector<std::vector<Position>>
       arcs;                       ///< per arc, points between its nodes from `from` to `to`
-  std::vector<Position> regions;  ///< per region, the mean of its vertices
+  std::vector<Position> regions;  ///< per region, its centroid
 };
 
-/// The parts of the mesh that each point of the skeleton is the mean of. They are chosen on the
-/// reference and then followed, so that the skeleton of a frame is that of the reference in another
-/// pose.
+/// The parts of the mesh that each point of the skeleton is the mean of, weighted by area. They are
+/// chosen on the reference and then followed, so that the skeleton of a frame is that of the
+/// reference in another pose.
 class Skeleton {
  public:
   /// `segmentation` is that of the mesh of `positions` (V x (x, y, z)) and `triangles`.
@@ -35,6 +35,7 @@ class Skeleton {
  private:
   using Vertices = std::vector<uint32_t>;
 
+  std::vector<double> areas_;  // per vertex of the reference
   std::vector<Vertices> nodes_, regions_;
   std::vector<std::vector<Vertices>> arcs_;  // none of the innermost is empty
 };
