@@ -86,11 +86,11 @@ void ErrorModel::halve() {
 }
 
 Probability GuessMixture::probability(int64_t part, int64_t whole) {
-  auto p = static_cast<uint64_t>(part);
-  auto w = static_cast<uint64_t>(whole);
+  const auto w = static_cast<uint64_t>(whole);
   const int excess = std::max(static_cast<int>(std::bit_width(w)) - 47, 0);
-  return static_cast<Probability>(
-      std::clamp<uint64_t>(((p >> excess) << 16) / (w >> excess), 1, 65535));
+  const uint64_t divisor = std::max(w >> excess, uint64_t{1});
+  const uint64_t ratio = (static_cast<uint64_t>(part) >> excess << 16) / divisor;
+  return static_cast<Probability>(std::clamp<uint64_t>(ratio, 1, 65535));
 }
 
 int64_t GuessMixture::weigh(uint32_t value, std::vector<int64_t>& by_guess) const {

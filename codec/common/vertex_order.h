@@ -13,7 +13,7 @@
 #include "bitstream/status.h"
 #include "codec/common/guess_mixture.h"
 #include "codec/common/half_edge_fans.h"
-#include "codec/common/reference_syntax.h"
+#include "codec/common/mesh_state.h"
 
 namespace reeb {
 

@@ -1,4 +1,4 @@
-#include "codec/common/reference_syntax.h"
+#include "codec/common/mesh_state.h"
 
 namespace reeb {
 namespace {
