@@ -235,7 +235,7 @@ MotionPartitions::MotionPartitions(const MotionInput& input, const Result& segme
                                    uint32_t patch_vertices) {
   if (segmentation.labels.empty()) return;
   const uint32_t vertices = static_cast<uint32_t>(segmentation.labels.size());
-  const uint32_t per_patch = std::max({patch_vertices, 8u, vertices / kMaxPatches});
+  const uint32_t per_patch = std::max({patch_vertices, 5u, vertices / kMaxPatches});
   const Pieces pieces = split_pieces(input.positions, input.triangles, true);
   patches_ = patches_of(input, pieces, segmentation.labels, per_patch);
   finest_ = renumber(patches_);

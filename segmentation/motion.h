@@ -28,10 +28,10 @@ double motion_error(const MotionInput& input, std::span<const uint32_t> labels);
 class MotionPartitions {
  public:
   /// Starts from the regions of `segmentation` (of the same mesh) cut into patches of about
-  /// `patch_vertices` (at least 8) vertices. Touching regions may merge, and pieces that lie side
-  /// by side.
+  /// `patch_vertices` (at least 5, below which a fit says nothing) vertices. Touching regions may
+  /// merge, and pieces that lie side by side.
   MotionPartitions(const MotionInput& input, const Result& segmentation,
-                   uint32_t patch_vertices = 20);
+                   uint32_t patch_vertices = 8);
 
   /// Regions of the finest partition; at least one when there are vertices.
   uint32_t finest() const { return finest_; }
