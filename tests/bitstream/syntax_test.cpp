@@ -35,7 +35,18 @@ TEST_CASE("headers survive and their truncations fail", "[syntax]") {
   check_round_trip(SequenceHeader{400, 2, 29.97, -3.5, 0});
   check_round_trip(ReferenceHeader{1, 7, {1.5f, -2.25f, 1e-20f}, 0.125f, 0});
   check_round_trip(MeshHeader{3030, 5664, MeshHeader::kOrderKept, 1, 300, 70000});
-  check_round_trip(GroupHeader{64, 65536, 1, Profile::kFast, 12, 0.5f, 24, 0, 1, 200, 70000});
+  GroupHeader group;
+  group.first_frame = 64;
+  group.frame_count = 65536;
+  group.shot = 1;
+  group.profile = Profile::kFast;
+  group.component_count = 12;
+  group.quantization_step = 0.5f;
+  group.region_count = 24;
+  group.motion_bytes = 1;
+  group.coefficient_bytes = 200;
+  group.basis_bytes = 70000;
+  check_round_trip(group);
   check_round_trip(SeekEntry{0, 9, 3});
 }
 
