@@ -78,8 +78,9 @@ void describe(V& v, MeshHeader& h) {
 }
 
 enum class Profile : uint8_t {
-  kMain = 0,  ///< prediction weights learned while decoding
-  kFast = 1,  ///< prediction weights fixed by the reference
+  kMain = 0,    ///< prediction weights learned while decoding
+  kFast = 1,    ///< prediction weights fixed by the reference
+  kThesis = 2,  ///< no temporal transform: residual of the affine motion per frame and coordinate
 };
 
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
@@ -88,10 +89,11 @@ struct GroupHeader {
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;
-  uint32_t component_count = 0;  ///< temporal components
-  float quantization_step = 1;   ///< world units
-  uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
-  uint8_t flags = 0;             ///< reserved
+  uint32_t component_count = 0;    ///< temporal components
+  float quantization_step = 1;     ///< world units
+  float axis_step[3] = {1, 1, 1};  ///< thesis profile: of each coordinate, world units
+  uint32_t region_count = 0;       ///< regions of the affine motion model; 0 where it is not used
+  uint8_t flags = 0;               ///< reserved
   uint64_t motion_bytes = 0;
   uint64_t coefficient_bytes = 0;
   uint64_t basis_bytes = 0;
@@ -103,10 +105,17 @@ void describe(V& v, GroupHeader& h) {
   v.uv("first_frame", h.first_frame, 0, kMaxUint32);
   v.uv("frame_count", h.frame_count, 1, kMaxGroupFrames);
   v.uv("shot", h.shot, 0, kMaxUint32);
-  v.u8("profile", h.profile, 0, 1);
+  v.u8("profile", h.profile, 0, 2);
   v.uv("component_count", h.component_count, 0, 3 * uint64_t{kMaxGroupFrames});
   v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
         std::numeric_limits<float>::max());
+  if (h.profile == Profile::kThesis) {
+    constexpr double kLeast = std::numeric_limits<float>::denorm_min();
+    constexpr double kMost = std::numeric_limits<float>::max();
+    v.f32("axis_step_x", h.axis_step[0], kLeast, kMost);
+    v.f32("axis_step_y", h.axis_step[1], kLeast, kMost);
+    v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
+  }
   v.uv("region_count", h.region_count, 0, kMaxUint32);
   v.flags("flags", h.flags, 0);
   v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);

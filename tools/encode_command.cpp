@@ -13,6 +13,11 @@
 namespace reeb::tools {
 namespace {
 
+Profile profile_of(const std::string& name) {
+  if (name == "fast") return Profile::kFast;
+  return name == "thesis" ? Profile::kThesis : Profile::kMain;
+}
+
 struct Options {
   std::vector<std::string> inputs;
   std::string output;
@@ -20,7 +25,6 @@ struct Options {
   AbsoluteOrPercent max_error;
   double bpvf = 0;
   double size = 0;
-  bool fast = false;
   bool overwrite = false;
   bool json = false;
   bool allow_gaps = false;
@@ -118,7 +122,6 @@ int run(Options& o) {
                  counted(sequence.shots[0].connectivity.vertex_count, "vertex") + " read");
 
   choose_target(o, sequence, o.encoder);
-  o.encoder.fast_profile = o.fast;
   o.encoder.threads = o.threads;
   if (const auto bar = console.bar("encoding")) {
     o.encoder.progress = [bar](double done) {
@@ -186,9 +189,10 @@ void add_coding_options(CLI::App& command, Options& o) {
       ->group(group);
   command
       .add_option_function<std::string>(
-          "--profile", [&o](const std::string& name) { o.fast = name == "fast"; },
-          "main (smallest) or fast (decodes quicker); default main")
-      ->check(CLI::IsMember({"main", "fast"}).description(""))
+          "--profile", [&o](const std::string& name) { o.encoder.profile = profile_of(name); },
+          "main (smallest), fast (decodes quicker) or thesis (Hachani's chain, for comparison); "
+          "default main")
+      ->check(CLI::IsMember({"main", "fast", "thesis"}).description(""))
       ->type_name("NAME")
       ->group(group);
   command

@@ -32,6 +32,8 @@ class MotionModel {
   static constexpr uint32_t kMaxRegions = 1024;
   static constexpr uint32_t kParameters = 4;     ///< x, y, z, constant
   static constexpr float kTransformStep = 0.5f;  ///< of a transform entry, in units of q
+  /// Stride that makes each transform of the thesis profile follow that of the frame before.
+  static constexpr uint32_t kFrameStride = 3;
   using Transform = std::array<int32_t, kParameters>;
 
   MotionModel() = default;
@@ -44,9 +46,10 @@ class MotionModel {
   /// Transforms of component k, one a region; empty before they are set or coded.
   std::vector<Transform>& transforms(uint32_t component) { return transforms_[component]; }
 
-  /// Codes bindings and transforms. False where decoded values are out of range.
+  /// Codes bindings and transforms, each transform as its difference from the one `stride`
+  /// components before where `stride` is not 0. False where decoded values are out of range.
   template <class Coder>
-  bool code(Coder& coder, const PredictionGraph& graph);
+  bool code(Coder& coder, const PredictionGraph& graph, uint32_t stride);
 
   /// Fixes the frames of the regions once the bindings are known: centre and extent of their
   /// vertices.

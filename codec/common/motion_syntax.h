@@ -90,8 +90,20 @@ class TransformCoder {
   std::array<std::array<SignedModel, kScales>, 2> entry_;
 };
 
+/// a + sign * b, entry by entry, modulo 2^32: damaged streams may hold anything.
+inline void add_transforms(std::vector<MotionModel::Transform>& a,
+                           const std::vector<MotionModel::Transform>& b, uint32_t sign) {
+  for (size_t region = 0; region < a.size(); ++region) {
+    for (uint32_t i = 0; i < MotionModel::kParameters; ++i) {
+      const auto sum =
+          static_cast<uint32_t>(a[region][i]) + sign * static_cast<uint32_t>(b[region][i]);
+      a[region][i] = static_cast<int32_t>(sum);
+    }
+  }
+}
+
 template <class Coder>
-bool MotionModel::code(Coder& coder, const PredictionGraph& graph) {
+bool MotionModel::code(Coder& coder, const PredictionGraph& graph, uint32_t stride) {
   bindings_.resize(graph.size());
   BindingCoder binding_coder(graph, bindings_);
   for (uint32_t row = 0; row < graph.size(); ++row) {
@@ -99,9 +111,12 @@ bool MotionModel::code(Coder& coder, const PredictionGraph& graph) {
     if (bindings_[row].primary >= regions_ || bindings_[row].secondary >= regions_) return false;
   }
   TransformCoder transform_coder;
-  for (auto& t : transforms_) {
-    t.resize(regions_);
-    transform_coder.code(coder, t);
+  for (size_t k = 0; k < transforms_.size(); ++k) {
+    transforms_[k].resize(regions_);
+    const bool follows = stride > 0 && k >= stride;
+    if (follows) add_transforms(transforms_[k], transforms_[k - stride], UINT32_MAX);  // times -1
+    transform_coder.code(coder, transforms_[k]);
+    if (follows) add_transforms(transforms_[k], transforms_[k - stride], 1);
     if constexpr (requires { coder.overrun(); }) {
       if (coder.overrun()) return false;  // before more is allocated than the bytes can mean
     }

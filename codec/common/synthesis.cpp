@@ -8,9 +8,6 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kBlock =
-    512;  ///< rows summed at once; three such blocks stay in the first-level cache
-
 /// sum[i] += scale * plane[i]
 void accumulate(float* sum, const float* plane, float scale, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) sum[i] += scale * plane[i];
@@ -29,22 +26,36 @@ GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes,
   }
 }
 
+GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes, const float axis_step[3],
+                               const float origin[3])
+    : planes_(std::move(planes)), basis_(axis_step, axis_step + 3), direct_(true) {
+  for (size_t row = 0; row < planes_.size(); ++row)
+    mean_.push_back(static_cast<double>(origin[row % 3]));
+}
+
+void GroupSynthesis::sum_components(size_t row, uint32_t begin, uint32_t count, float* sum) const {
+  std::fill_n(sum, count, 0.0f);
+  if (direct_) {
+    accumulate(sum, planes_[row].data() + begin, basis_[row % 3], count);
+    return;
+  }
+  for (size_t k = 0; k < planes_.size(); ++k) {
+    accumulate(sum, planes_[k].data() + begin, basis_[row * planes_.size() + k], count);
+  }
+}
+
 void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* xyz,
                            size_t stride) const {
   const auto rows = static_cast<uint32_t>(output.size());
+  float sum[kBlock];
   for (uint32_t begin = 0; begin < rows; begin += kBlock) {
     const uint32_t count = std::min(kBlock, rows - begin);
-    float sum[3][kBlock] = {};
-    for (size_t k = 0; k < planes_.size(); ++k) {
-      for (uint32_t a = 0; a < 3; ++a) {
-        accumulate(sum[a], planes_[k].data() + begin,
-                   basis_[(size_t{t} * 3 + a) * planes_.size() + k], count);
-      }
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-      float* p = xyz + output[begin + i] * stride;
-      for (uint32_t a = 0; a < 3; ++a) {
-        p[a] = static_cast<float>(mean_[size_t{t} * 3 + a] + static_cast<double>(sum[a][i]));
+    for (uint32_t a = 0; a < 3; ++a) {
+      const size_t row = size_t{t} * 3 + a;
+      sum_components(row, begin, count, sum);
+      for (uint32_t i = 0; i < count; ++i) {
+        xyz[output[begin + i] * stride + a] =
+            static_cast<float>(mean_[row] + static_cast<double>(sum[i]));
       }
     }
   }

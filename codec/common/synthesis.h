@@ -19,6 +19,11 @@ class GroupSynthesis {
   GroupSynthesis(std::vector<std::vector<float>> planes,
                  const std::vector<std::vector<float>>& basis, std::vector<double> mean);
 
+  /// Thesis profile: plane 3 t + a holds coordinate a of frame t, less `origin`, in units of
+  /// `axis_step[a]`.
+  GroupSynthesis(std::vector<std::vector<float>> planes, const float axis_step[3],
+                 const float origin[3]);
+
   uint32_t frame_count() const { return static_cast<uint32_t>(mean_.size() / 3); }
   /// Mean trajectory and the K basis values of row = time * 3 + axis, world units.
   double mean(size_t row) const { return mean_[row]; }
@@ -30,8 +35,14 @@ class GroupSynthesis {
   void frame(uint32_t t, std::span<const uint32_t> output, float* xyz, size_t stride) const;
 
  private:
+  static constexpr uint32_t kBlock =
+      512;  ///< rows summed at once; they stay in the first-level cache
+
+  void sum_components(size_t row, uint32_t begin, uint32_t count, float* sum) const;
+
   std::vector<std::vector<float>> planes_;
-  std::vector<float> basis_;  ///< [time][axis][component]
+  std::vector<float> basis_;  ///< [time][axis][component]; [axis] in the thesis profile
+  bool direct_ = false;       ///< planes are coordinates: the thesis profile
   std::vector<double> mean_;
 };
 

@@ -28,7 +28,8 @@ Status decode_motion(const GroupChunk& chunk, const DecodedSurface& surface, Mot
     return Status::corrupt("region_count is out of range");
   BinaryDecoder decoder(chunk.motion);
   motion = MotionModel(chunk.header.region_count, chunk.header.component_count);
-  if (!motion.code(decoder, surface.surface.graph) || decoder.overrun()) {
+  const uint32_t stride = chunk.header.profile == Profile::kThesis ? MotionModel::kFrameStride : 0;
+  if (!motion.code(decoder, surface.surface.graph, stride) || decoder.overrun()) {
     return Status::corrupt("the motion section is damaged");
   }
   motion.locate(GridPoints(surface.grid), surface.surface.order);
@@ -38,8 +39,7 @@ Status decode_motion(const GroupChunk& chunk, const DecodedSurface& surface, Mot
 Status decode_coefficients(const GroupChunk& chunk, const DecodedSurface& surface,
                            const MotionModel& motion, unsigned threads,
                            std::vector<std::vector<float>>& planes) {
-  const bool fast = chunk.header.profile == Profile::kFast;
-  Field field(surface.surface.graph, surface_field_options(fast), threads);
+  Field field(surface.surface.graph, surface_field_options(chunk.header.profile), threads);
   field.learn_reference(GridPoints(surface.grid), surface.surface.order);
   BinaryDecoder decoder(chunk.coefficients);
   for (uint32_t k = 0; k < chunk.header.component_count; ++k) {
@@ -51,18 +51,8 @@ Status decode_coefficients(const GroupChunk& chunk, const DecodedSurface& surfac
   return {};
 }
 
-}  // namespace
-
-Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
-                    GroupSynthesis& out) {
-  if (chunk.header.component_count > 3 * uint64_t{chunk.header.frame_count}) {
-    return Status::corrupt("component_count is more than the group's frames allow");
-  }
-  MotionModel motion;
-  if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
-  std::vector<std::vector<float>> planes;
-  if (Status s = decode_coefficients(chunk, surface, motion, threads, planes); !s.ok()) return s;
-
+Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
+                    std::vector<std::vector<float>> planes, GroupSynthesis& out) {
   const TemporalGraph temporal = build_temporal_graph(chunk.header.frame_count);
   Field basis(temporal.graph, basis_field_options(), 1);
   BinaryDecoder decoder(chunk.basis);
@@ -72,6 +62,25 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   const double q = static_cast<double>(chunk.header.quantization_step);
   out = synthesize(surface.surface.graph.size(), std::move(planes), basis, temporal.order, q,
                    surface.origin);
+  return {};
+}
+
+}  // namespace
+
+Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
+                    GroupSynthesis& out) {
+  const GroupHeader& header = chunk.header;
+  const uint64_t coordinates = 3 * uint64_t{header.frame_count};
+  const bool thesis = header.profile == Profile::kThesis;
+  if (header.component_count > coordinates || (thesis && header.component_count != coordinates)) {
+    return Status::corrupt("component_count does not fit the group's frames");
+  }
+  MotionModel motion;
+  if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
+  std::vector<std::vector<float>> planes;
+  if (Status s = decode_coefficients(chunk, surface, motion, threads, planes); !s.ok()) return s;
+  if (!thesis) return decode_basis(chunk, surface, std::move(planes), out);
+  out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);
   return {};
 }
 

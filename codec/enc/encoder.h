@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bitstream/headers.h"
 #include "bitstream/status.h"
 #include "codec/common/sequence.h"
 
@@ -24,7 +25,7 @@ struct EncodeOptions {
   double target_value = 0.05;  ///< > 0; unit as the target says
   uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
   bool reorder = false;        ///< drop the vertex order of the input (saves bits)
-  bool fast_profile = false;   ///< fixed prediction weights: quicker decoding, more bits
+  Profile profile = Profile::kMain;
   int regions =
       -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, 0 = none
   unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it

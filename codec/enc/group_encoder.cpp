@@ -1,142 +1,26 @@
 #include "codec/enc/group_encoder.h"
 
-#include <cmath>
-#include <utility>
-
 #include "codec/common/motion_syntax.h"
-#include "codec/enc/basis_refit.h"
-#include "codec/enc/field_encoder.h"
+#include "codec/enc/thesis_encoder.h"
+#include "codec/enc/transform_encoder.h"
 #include "entropy/range_coder.h"
 
 namespace reeb {
 
-namespace {
-
-constexpr double kCoefficientLambda = 0.10;  ///< bits against squared error, in q^2
-constexpr double kBasisLambda = 0.08;
-constexpr double kMassExponent = 0.7;
-constexpr uint32_t kPatience =
-    8;  ///< components without gain after which the search for their number ends
-
-/// Keeps the number of components with the lowest cost seen.
-class StopRule {
- public:
-  explicit StopRule(uint32_t frames) : basis_weight_(6.0 * frames) {}
-
-  /// Adds a component: energy before, squared error after, bits spent (all in units of q). False:
-  /// stop.
-  bool add(double energy, double error, double bits) {
-    ++count_;
-    const double basis_bits = basis_weight_ * 0.5 * std::log2(1 + 6 * energy / basis_weight_);
-    cost_ += error + basis_weight_ / 12 - energy + kCoefficientLambda * (bits + basis_bits);
-    if (cost_ < best_cost_) {
-      best_cost_ = cost_;
-      best_count_ = count_;
-    }
-    return count_ - best_count_ < kPatience;
-  }
-  uint32_t best() const { return best_count_; }
-
- private:
-  double basis_weight_;  ///< about twice the 3F values of a basis vector, whose bits are estimated
-  double cost_ = 0;
-  double best_cost_ = 0;
-  uint32_t count_ = 0;
-  uint32_t best_count_ = 0;
-};
-
-double energy_of(const std::vector<float>& values) {
-  double sum = 0;
-  for (const float x : values) sum += static_cast<double>(x) * static_cast<double>(x);
-  return sum;
-}
-
-}  // namespace
-
-GroupEncoder::GroupEncoder(GroupSignal signal, bool fast_profile, unsigned threads)
-    : signal_(std::move(signal)),
-      temporal_(build_temporal_graph(signal_.frames)),
-      transform_(signal_),
-      fast_profile_(fast_profile),
-      threads_(threads) {}
-
-CodedGroup GroupEncoder::encode(const SurfaceContext& surface, double q, const MotionFit* motion) {
-  CodedGroup out;
-  out.q = static_cast<double>(static_cast<float>(q));  // as the header keeps it
-  Planes planes = encode_coefficients(surface, motion, out);
-  if (motion != nullptr) encode_motion(surface, *motion, out, planes);
-  encode_basis(surface, planes, out);
-  return out;
-}
-
-GroupEncoder::Planes GroupEncoder::encode_coefficients(const SurfaceContext& surface,
-                                                       const MotionFit* motion, CodedGroup& out) {
-  const PredictionGraph& graph = surface.surface.graph;
-  Field field(graph, surface_field_options(fast_profile_), threads_);
-  field.learn_reference(surface.points(), surface.surface.order);
-  FieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent);
-  StopRule stop(signal_.frames);
-  MotionModel model;
-  if (motion != nullptr) model = motion->quantize(out.q, transform_.size());
-  std::vector<size_t> ends{0};
-  std::vector<float> target(graph.size());
-  bool more = true;
-  for (uint32_t k = 0; k < transform_.size() && more; ++k) {
-    const float* coefficients = transform_.coefficients(k);
-    for (uint32_t r = 0; r < target.size(); ++r) {
-      target[r] = static_cast<float>(static_cast<double>(coefficients[surface.input[r]]) / out.q);
-    }
-    const double energy = energy_of(target);
-    if (motion != nullptr) {
-      const std::vector<float> moved = model.predict(k);
-      for (uint32_t r = 0; r < target.size(); ++r) target[r] -= moved[r];
-    }
-    const double bits_before = encoder.recorder().bits();
-    const double error = encoder.code_component(target.data());
-    ends.push_back(encoder.recorder().size());
-    more = stop.add(energy, error, encoder.recorder().bits() - bits_before);
-  }
-  out.component_count = stop.best();
-  out.coefficients = encoder.recorder().encode(ends[stop.best()]);
-  Planes planes;
-  for (uint32_t k = 0; k < stop.best(); ++k) planes.push_back(field.plane(k));
-  return planes;
-}
-
-void GroupEncoder::encode_motion(const SurfaceContext& surface, const MotionFit& motion,
-                                 CodedGroup& out, Planes& planes) {
-  MotionModel model = motion.quantize(out.q, out.component_count);
+void encode_motion(const SurfaceContext& surface, MotionModel& model, uint32_t stride,
+                   CodedGroup& out, std::vector<std::vector<float>>& planes) {
   BinaryEncoder encoder;
-  model.code(encoder, surface.surface.graph);
+  model.code(encoder, surface.surface.graph, stride);
   out.region_count = model.regions();
   out.motion = encoder.finish();
   add_motion(model, planes);
 }
 
-void GroupEncoder::encode_basis(const SurfaceContext& surface, const Planes& planes,
-                                CodedGroup& out) {
-  const BasisRefit refit(signal_, transform_.basis(), planes, surface.row_of, out.q);
-  Field field(temporal_.graph, basis_field_options(), threads_);
-  FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
-  std::vector<float> target(temporal_.order.size());
-  const double mean_scale = std::sqrt(static_cast<double>(signal_.vertices())) / out.q;
-  for (size_t r = 0; r < target.size(); ++r) {
-    const uint32_t at = temporal_.order[r];
-    target[r] = static_cast<float>(
-        (signal_.mean[at] - static_cast<double>(surface.header.origin[at % 3])) * mean_scale);
-  }
-  encoder.code_component(target.data());
-  for (uint32_t k = 0; k < planes.size(); ++k) {
-    const double norm = plane_norm(planes[k]);
-    for (size_t r = 0; r < target.size(); ++r) {
-      target[r] = static_cast<float>(refit.basis()(temporal_.order[r], k) * norm);
-    }
-    encoder.code_component(target.data());
-  }
-  out.basis = encoder.recorder().encode(encoder.recorder().size());
-  out.synthesis =
-      synthesize(signal_.vertices(), planes, field, temporal_.order, out.q, surface.header.origin);
-  out.squared_error = refit.squared_error(out.synthesis);
+std::unique_ptr<GroupEncoder> make_group_encoder(GroupSignal signal, Profile profile,
+                                                 unsigned threads) {
+  if (profile == Profile::kThesis)
+    return std::make_unique<ThesisEncoder>(std::move(signal), threads);
+  return std::make_unique<TransformEncoder>(std::move(signal), profile, threads);
 }
 
 }  // namespace reeb

@@ -1,13 +1,15 @@
 // Encoder of one group of frames at a given quantization step.
 #pragma once
 
+#include <Eigen/Dense>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "codec/common/prediction_graph.h"
 #include "codec/common/synthesis.h"
 #include "codec/enc/group_signal.h"
-#include "codec/enc/karhunen_loeve.h"
 #include "codec/enc/motion_fit.h"
 #include "codec/enc/surface_context.h"
 
@@ -16,6 +18,7 @@ namespace reeb {
 /// One encoding of a group.
 struct CodedGroup {
   double q = 0;
+  float axis_step[3] = {1, 1, 1};  ///< of the motion model and, in the thesis profile, the residual
   uint32_t component_count = 0;
   uint32_t region_count = 0;
   std::vector<uint8_t> motion;
@@ -26,32 +29,33 @@ struct CodedGroup {
       0;  ///< over all vertices, frames and axes, but for the rounding to binary32
 };
 
+/// Encodes one group at a given quantization step.
 class GroupEncoder {
  public:
-  GroupEncoder(GroupSignal signal, bool fast_profile, unsigned threads);
+  explicit GroupEncoder(GroupSignal signal) : signal_(std::move(signal)) {}
+  virtual ~GroupEncoder() = default;
   GroupEncoder(const GroupEncoder&) = delete;
   GroupEncoder& operator=(const GroupEncoder&) = delete;
 
   /// Encodes on a reference mesh with quantization step q > 0, world units. `motion` may be null.
-  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion);
+  virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion) = 0;
+
+  /// What the motion model is to predict: V x K, world units, rows as the surface graph.
+  virtual Eigen::MatrixXf motion_targets(const SurfaceContext& surface) = 0;
 
   const GroupSignal& signal() const { return signal_; }
-  KarhunenLoeve& transform() { return transform_; }
 
- private:
+ protected:
   using Planes = std::vector<std::vector<float>>;
 
-  Planes encode_coefficients(const SurfaceContext& surface, const MotionFit* motion,
-                             CodedGroup& out);
-  void encode_motion(const SurfaceContext& surface, const MotionFit& motion, CodedGroup& out,
-                     Planes& planes);
-  void encode_basis(const SurfaceContext& surface, const Planes& planes, CodedGroup& out);
-
   GroupSignal signal_;
-  TemporalGraph temporal_;
-  KarhunenLoeve transform_;
-  bool fast_profile_;
-  unsigned threads_;
 };
+
+/// Fills the motion section and adds the motion to the planes.
+void encode_motion(const SurfaceContext& surface, MotionModel& model, uint32_t stride,
+                   CodedGroup& out, std::vector<std::vector<float>>& planes);
+
+std::unique_ptr<GroupEncoder> make_group_encoder(GroupSignal signal, Profile profile,
+                                                 unsigned threads);
 
 }  // namespace reeb

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reeb {
 
 namespace {
 
 constexpr uint32_t kAlternations = 3;
-constexpr uint32_t kMostComponents = 96;  ///< later ones carry no affine motion worth its bits
 constexpr double kRidge =
     1e-6;  ///< relative to the mean diagonal, for regions that are flat or small
 constexpr double kWorthwhile =
@@ -16,16 +16,9 @@ constexpr double kWorthwhile =
 
 }  // namespace
 
-MotionFit::MotionFit(const SurfaceContext& surface, KarhunenLoeve& transform,
+MotionFit::MotionFit(const SurfaceContext& surface, Eigen::MatrixXf coefficients,
                      std::span<const uint32_t> labels, uint32_t regions)
-    : surface_(surface), model_(regions, 0) {
-  const uint32_t components = std::min(kMostComponents, transform.size());
-  coefficients_.resize(surface.rows(), components);
-  for (uint32_t k = 0; k < components; ++k) {
-    const float* c = transform.coefficients(k);
-    for (uint32_t row = 0; row < surface.rows(); ++row)
-      coefficients_(row, k) = c[surface.input[row]];
-  }
+    : surface_(surface), coefficients_(std::move(coefficients)), model_(regions, 0) {
   model_.bindings().resize(surface.rows());
   for (uint32_t row = 0; row < surface.rows(); ++row)
     model_.bindings()[row].primary = labels[surface.input[row]];
@@ -120,14 +113,14 @@ void MotionFit::fit_weights() {
   }
 }
 
-MotionModel MotionFit::quantize(double q, uint32_t components) const {
+MotionModel MotionFit::quantize(const float (&step)[3], uint32_t components) const {
   MotionModel out = model_;
   out.set_components(components);
-  const double scale = 1 / (q * static_cast<double>(MotionModel::kTransformStep));
   for (uint32_t k = 0; k < components; ++k) {
     std::vector<MotionModel::Transform>& t = out.transforms(k);
     t.assign(model_.regions(), MotionModel::Transform{});
     if (k >= transforms_.cols()) continue;
+    const double scale = 1 / static_cast<double>(step[k % 3] * MotionModel::kTransformStep);
     for (uint32_t b = 0; b < model_.regions(); ++b) {
       for (uint32_t i = 0; i < MotionModel::kParameters; ++i) {
         const double z = transforms_(Eigen::Index{b} * MotionModel::kParameters + i, k) * scale;

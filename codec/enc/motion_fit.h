@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "codec/common/motion_model.h"
-#include "codec/enc/karhunen_loeve.h"
 #include "codec/enc/surface_context.h"
 
 namespace reeb {
 
 class MotionFit {
  public:
-  /// `labels`: region of each input vertex, 0 .. regions-1.
-  MotionFit(const SurfaceContext& surface, KarhunenLoeve& transform,
+  /// `coefficients`: V x K in the order of the rows of the surface graph, world units; K components
+  /// of the temporal basis, or coordinates (frame, axis). `labels`: region of each input vertex,
+  /// 0 .. regions-1.
+  MotionFit(const SurfaceContext& surface, Eigen::MatrixXf coefficients,
             std::span<const uint32_t> labels, uint32_t regions);
 
-  /// The model as it is coded at quantization step q, for the first `components` components.
-  MotionModel quantize(double q, uint32_t components) const;
+  /// The model as it is coded for the first `components` components, component k in units of
+  /// step[k % 3].
+  MotionModel quantize(const float (&step)[3], uint32_t components) const;
 
   uint32_t regions() const { return model_.regions(); }
 
@@ -34,9 +36,9 @@ class MotionFit {
   void fit_weights();
 
   const SurfaceContext& surface_;
-  Eigen::MatrixXf coefficients_;  ///< V x K, rows as the surface graph, world units
-  MotionModel model_;             ///< bindings and frames; no transforms
-  Eigen::MatrixXd transforms_;    ///< 4R x K, world units
+  Eigen::MatrixXf coefficients_;
+  MotionModel model_;           ///< bindings and frames; no transforms
+  Eigen::MatrixXd transforms_;  ///< 4R x K, world units
 };
 
 }  // namespace reeb

@@ -187,7 +187,7 @@ Status SequenceEncoder::refine_grids() {
 }
 
 Status SequenceEncoder::choose_regions() {
-  if (options_.regions >= 0) return {};
+  if (options_.regions >= 0 || options_.profile == Profile::kThesis) return {};
   uint32_t chosen = 0;
   for (const uint32_t candidate : kRegionCandidates) {
     set_regions(candidate);
@@ -237,6 +237,9 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   if (options_.target == Target::kMaxError) expected = options_.target_value / 8;
   if (Status s = set_grids(expected); !s.ok()) return s;
   if (options_.regions > 0) set_regions(static_cast<uint32_t>(options_.regions));
+  if (options_.regions < 0 && options_.profile == Profile::kThesis) {
+    for (auto& shot : shots_) shot->set_reeb_regions();
+  }
 
   // A coefficient's error of q/sqrt(12) spreads over the frames; most coefficients are not sent at
   // all.

@@ -40,10 +40,7 @@ std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
 
 ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
                          unsigned threads)
-    : shot_(shot),
-      first_frame_(first_frame),
-      reorder_(options.reorder),
-      fast_profile_(options.fast_profile) {
+    : shot_(shot), first_frame_(first_frame), reorder_(options.reorder), profile_(options.profile) {
   const std::vector<uint32_t> lengths =
       options.group_length > 0 ? split_by(shot.frame_count, options.group_length)
                                : split_evenly(shot.frame_count, default_group_length(shot));
@@ -52,9 +49,7 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
     GroupSignal signal = make_group_signal(shot, first, length);
     energy_ += signal.energy;
     largest_ = std::max(largest_, signal.largest);
-    groups_.push_back({first,
-                       std::make_unique<GroupEncoder>(std::move(signal), fast_profile_, threads),
-                       nullptr});
+    groups_.push_back({first, make_group_encoder(std::move(signal), profile_, threads), nullptr});
     first += length;
   }
 }
@@ -97,28 +92,40 @@ Status ShotEncoder::set_grid_bits(uint32_t bits) {
   return {};
 }
 
-void ShotEncoder::make_partitions() {
-  std::vector<uint32_t> triangles;
-  for (const uint32_t v : surface_.mesh.triangles) triangles.push_back(surface_.input_of[v]);
-  const segmentation::Result regions = segmentation::segment(shot_.frame(0), triangles);
-  const segmentation::MotionInput input{shot_.frame(0), triangles, shot_.positions};
-  partitions_ = std::make_unique<segmentation::MotionPartitions>(input, regions);
+void ShotEncoder::segment_reference() {
+  if (reeb_regions_ != nullptr) return;
+  for (const uint32_t v : surface_.mesh.triangles) triangles_.push_back(surface_.input_of[v]);
+  reeb_regions_ =
+      std::make_unique<segmentation::Result>(segmentation::segment(shot_.frame(0), triangles_));
+}
+
+void ShotEncoder::set_reeb_regions() {
+  segment_reference();
+  labels_ = reeb_regions_->labels;
+  regions_ = reeb_regions_->region_count;
+  fit_motion();
 }
 
 void ShotEncoder::set_regions(uint32_t count) {
-  if (count > 0 && partitions_ == nullptr) make_partitions();
-  regions_ = count > 0 ? std::clamp(count, 1u, partitions_->finest()) : 0;
+  regions_ = 0;
+  if (count > 0) {
+    segment_reference();
+    if (partitions_ == nullptr) {
+      const segmentation::MotionInput input{shot_.frame(0), triangles_, shot_.positions};
+      partitions_ = std::make_unique<segmentation::MotionPartitions>(input, *reeb_regions_);
+    }
+    regions_ = std::clamp(count, 1u, partitions_->finest());
+    labels_ = partitions_->labels(regions_);
+  }
   fit_motion();
 }
 
 void ShotEncoder::fit_motion() {
-  std::vector<uint32_t> labels;
-  if (regions_ > 0) labels = partitions_->labels(regions_);
   for (Group& group : groups_) {
     group.motion.reset();
     if (regions_ == 0) continue;
-    group.motion =
-        std::make_unique<MotionFit>(surface_, group.encoder->transform(), labels, regions_);
+    group.motion = std::make_unique<MotionFit>(surface_, group.encoder->motion_targets(surface_),
+                                               labels_, regions_);
   }
 }
 
@@ -140,7 +147,8 @@ Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& co
     header.first_frame = first_frame_ + groups_[i].first_frame;
     header.frame_count = groups_[i].encoder->signal().frames;
     header.shot = shot_index;
-    header.profile = fast_profile_ ? Profile::kFast : Profile::kMain;
+    header.profile = profile_;
+    std::copy(std::begin(coded[i].axis_step), std::end(coded[i].axis_step), header.axis_step);
     header.component_count = coded[i].component_count;
     header.quantization_step = static_cast<float>(coded[i].q);
     header.region_count = coded[i].region_count;

@@ -30,6 +30,8 @@ class ShotEncoder {
 
   /// Gives the motion model `count` regions, or as many as the shape allows; 0 for none.
   void set_regions(uint32_t count);
+  /// Gives the motion model the regions of the Reeb graph as they are.
+  void set_reeb_regions();
   uint32_t regions() const { return regions_; }
 
   /// Encodes every group with quantization step q.
@@ -56,17 +58,20 @@ class ShotEncoder {
     std::unique_ptr<MotionFit> motion;
   };
   void fit_motion();
-  void make_partitions();
+  void segment_reference();
 
   const Shot& shot_;
   uint32_t first_frame_;
   bool reorder_;
-  bool fast_profile_;
+  Profile profile_;
   uint32_t grid_bits_ = 0;
   uint32_t regions_ = 0;
   SurfaceContext surface_;
   std::vector<Group> groups_;
-  std::unique_ptr<segmentation::MotionPartitions> partitions_;  ///< made when first needed
+  std::vector<uint32_t> triangles_;                     ///< of the input; made with the next two
+  std::unique_ptr<segmentation::Result> reeb_regions_;  ///< when first needed
+  std::unique_ptr<segmentation::MotionPartitions> partitions_;
+  std::vector<uint32_t> labels_;  ///< region of each vertex of the input
   double energy_ = 0;
   double largest_ = 0;
 };

@@ -51,9 +51,9 @@ std::unique_ptr<Decoder> open(const Bytes& bytes) {
 TEST_CASE("sequences of every topology survive", "[codec]") {
   for (const Shape& shape : small_shapes()) {
     INFO(shape.name);
-    for (const bool fast : {false, true}) {
+    for (const Profile profile : {Profile::kMain, Profile::kFast, Profile::kThesis}) {
       EncodeOptions options = quick_options();
-      options.fast_profile = fast;
+      options.profile = profile;
       check_round_trip(sequence_of({animate(shape, 9)}), options);
     }
   }
@@ -252,9 +252,9 @@ TEST_CASE("threads change neither bytes nor positions", "[codec]") {
 
 TEST_CASE("the motion model is used with the regions asked for", "[codec]") {
   const Sequence sequence = sequence_of({animate(torus(30, 20), 12)});
-  for (const bool fast : {false, true}) {
+  for (const Profile profile : {Profile::kMain, Profile::kFast, Profile::kThesis}) {
     EncodeOptions options = quick_options();
-    options.fast_profile = fast;
+    options.profile = profile;
     options.regions = 5;
     const Encoded out = check_round_trip(sequence, options);
     const uint32_t regions = open(out.bytes)->info().groups[0].region_count;

@@ -52,10 +52,10 @@ TEST_CASE("a size is met within one per cent", "[rate_control]") {
 TEST_CASE("the fast profile meets its target too", "[rate_control]") {
   const Sequence sequence = large_sequence();
   EncodeOptions options = aim(Target::kKg, 0.1);
-  options.fast_profile = true;
+  options.profile = Profile::kFast;
   const Encoded fast = encode_or_fail(sequence, options);
   check_met(measure(sequence, decode_or_fail(fast.bytes)).kg, 0.1);
-  options.fast_profile = false;
+  options.profile = Profile::kMain;
   CHECK(encode_or_fail(sequence, options).bytes.size() < fast.bytes.size());
 }
 

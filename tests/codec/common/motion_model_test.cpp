@@ -6,9 +6,9 @@
 
 #include "codec/common/motion_syntax.h"
 #include "codec/enc/group_signal.h"
-#include "codec/enc/karhunen_loeve.h"
 #include "codec/enc/motion_fit.h"
 #include "codec/enc/surface_context.h"
+#include "codec/enc/transform_encoder.h"
 #include "entropy/range_coder.h"
 #include "tests/codec/shapes.h"
 
@@ -51,7 +51,7 @@ MotionModel random_model(const SurfaceGraph& s, uint32_t regions, uint32_t compo
 
 std::vector<uint8_t> encode(MotionModel& model, const PredictionGraph& graph) {
   BinaryEncoder encoder;
-  CHECK(model.code(encoder, graph));
+  CHECK(model.code(encoder, graph, 0));
   return encoder.finish();
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("the motion section comes back", "[motion_model]") {
       const auto bytes = encode(model, s.graph);
       BinaryDecoder decoder(bytes);
       MotionModel decoded(regions, 5);
-      REQUIRE(decoded.code(decoder, s.graph));
+      REQUIRE(decoded.code(decoder, s.graph, 0));
       CHECK_FALSE(decoder.overrun());
       CHECK(decoded.bindings() == model.bindings());
       for (uint32_t k = 0; k < 5; ++k) CHECK(decoded.transforms(k) == model.transforms(k));
@@ -101,7 +101,7 @@ TEST_CASE("a region that does not exist is refused", "[motion_model]") {
   for (const uint32_t fewer : {1u, 2u, 20u}) {
     BinaryDecoder decoder(bytes);
     MotionModel decoded(fewer, 3);
-    CHECK_FALSE(decoded.code(decoder, s.graph));
+    CHECK_FALSE(decoded.code(decoder, s.graph, 0));
   }
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("damaged motion sections are refused or stay within range", "[motion_m
     if (!bytes.empty()) bytes[random() % bytes.size()] ^= static_cast<uint8_t>(1 + random() % 255);
     BinaryDecoder decoder(bytes);
     MotionModel decoded(12, 4);
-    if (!decoded.code(decoder, s.graph) || decoder.overrun()) {
+    if (!decoded.code(decoder, s.graph, 0) || decoder.overrun()) {
       ++refused;
       continue;
     }
@@ -156,20 +156,20 @@ TEST_CASE("rigidly moving parts are predicted to the step of their transforms", 
   const Shot shot = animate(shape, 15, hinge);
   SurfaceContext surface;
   REQUIRE(make_surface_context(shot, 16, false, surface).ok());
-  const GroupSignal signal = make_group_signal(shot, 0, 15);
-  KarhunenLoeve transform(signal);
+  TransformEncoder encoder(make_group_signal(shot, 0, 15), Profile::kMain, 1);
+  const Eigen::MatrixXf targets = encoder.motion_targets(surface);
   std::vector<uint32_t> labels;
   for (size_t i = 0; i < shape.positions.size(); i += 3)
     labels.push_back(shape.positions[i] < 0 ? 0 : 1);
-  const MotionFit fit(surface, transform, labels, 2);
-  constexpr double kStep = 0.01;  // coefficients reach some units, the grid has steps of 1e-4
-  const MotionModel model = fit.quantize(kStep, transform.size());
+  const MotionFit fit(surface, targets, labels, 2);
+  constexpr float kStep = 0.01f;  // coefficients reach some units, the grid has steps of 1e-4
+  const auto components = static_cast<uint32_t>(targets.cols());
+  const MotionModel model = fit.quantize({kStep, kStep, kStep}, components);
   double largest = 0;
-  for (uint32_t k = 0; k < transform.size(); ++k) {
+  for (uint32_t k = 0; k < components; ++k) {
     const std::vector<float> predicted = model.predict(k);
     for (uint32_t row = 0; row < surface.rows(); ++row) {
-      const double wanted =
-          static_cast<double>(transform.coefficients(k)[surface.input[row]]) / kStep;
+      const double wanted = static_cast<double>(targets(row, k)) / static_cast<double>(kStep);
       largest = std::max(largest, std::abs(wanted));
       // Four entries, each to a quarter unit at factors up to 1, and the grid's rounding.
       REQUIRE(static_cast<double>(predicted[row]) == Approx(wanted).margin(1.1));

@@ -1,0 +1,18 @@
+// Rate and distortion of a uniformly quantized Laplacian source, in closed form.
+#pragma once
+
+namespace reeb {
+
+struct RatePoint {
+  double bits = 0;        ///< entropy of a sample
+  double distortion = 0;  ///< mean squared error of a sample
+};
+
+/// Source of mean absolute value `scale` > 0, quantized to the nearest multiple of `step` > 0.
+RatePoint quantized_laplacian(double scale, double step);
+
+/// Step that minimises distortion + slope * bits; the largest one tried where nothing is worth
+/// sending.
+double laplacian_step(double scale, double slope);
+
+}  // namespace reeb
