@@ -68,7 +68,7 @@ class BitMixer {
 
  private:
   static constexpr int32_t kUnit = 1 << 16;
-  static constexpr int kRateShift = 14;
+  static constexpr int kRateShift = 16;
 
   std::array<std::vector<AdaptiveBit>, N> tables_;
   std::vector<int32_t> weights_;

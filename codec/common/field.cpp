@@ -8,6 +8,8 @@ namespace reeb {
 
 namespace {
 
+constexpr uint32_t kRunning = 32;             ///< rows over which the running mean fades
+constexpr uint32_t kRecent = 4;               ///< rows over which the recent mean fades
 constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
 
 uint32_t level_of(uint32_t row, uint32_t rows) {
@@ -16,10 +18,9 @@ uint32_t level_of(uint32_t row, uint32_t rows) {
 
 }  // namespace
 
-FieldOptions surface_field_options(Profile profile) {
+FieldOptions surface_field_options(bool fast_profile) {
   FieldOptions options;
-  options.predict = profile != Profile::kThesis;
-  options.adaptive = profile == Profile::kMain;
+  options.adaptive = !fast_profile;
   options.noise_share = 2.2;
   options.noise_floor = 0.2;
   options.weights.ring_deviation = 1.4;
@@ -40,6 +41,7 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
       options_(options),
       estimator_(graph, options.weights, threads),
       magnitude_(graph.size(), 0),
+      last_(graph.size(), 0),
       history_(graph.size(), 0),
       ring_history_(graph.size(), 0),
       level_(graph.size()) {
@@ -54,7 +56,6 @@ void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t
 }
 
 float Field::predict(uint32_t row, const float* plane) const {
-  if (!options_.predict) return 0;
   const float* w = estimator_.weights(row);
   const auto& neighbour = graph_.rows[row].neighbour;
   float sum[4] = {0, 0, 0, 0};  // four running sums, so that vector units may take one each
@@ -66,22 +67,27 @@ float Field::predict(uint32_t row, const float* plane) const {
 
 Surroundings Field::surroundings(uint32_t row) const {
   const PredictionGraph::Row& r = graph_.rows[row];
-  uint64_t sum = 0;
+  uint64_t ring = 0;
+  uint64_t extra = 0;
   uint32_t largest = 0;
   for (uint32_t i = 0; i < r.ring; ++i) {
-    sum += magnitude_[r.neighbour[i]];
+    ring += magnitude_[r.neighbour[i]];
     largest = std::max(largest, magnitude_[r.neighbour[i]]);
   }
-  const uint32_t step = step_of(row);
+  for (uint32_t i = r.ring; i < r.count; ++i) extra += magnitude_[r.neighbour[i]];
+  const uint32_t step = kStepTable[graph_.step_level[row]];
   const auto relative = [step](uint64_t x) {
     return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / step, kMagnitudeCap));
   };
   Surroundings s;
-  s.ring_mean = relative(r.ring > 0 ? sum / r.ring : 0);
+  s.ring_mean = relative(r.ring > 0 ? ring / r.ring : 0);
   s.ring_max = relative(largest);
   s.history = relative(history_[row]);
   s.ring_history = relative(ring_history_[row]);
-  s.running = relative(running_ / 32);
+  s.running = relative(running_ / kRunning);
+  s.recent = relative(recent_ / kRecent);
+  s.last = relative(last_[row]);
+  s.extra_mean = r.count > r.ring ? relative(extra / (r.count - r.ring)) : s.ring_mean;
   s.level = level_[row];
   s.component = static_cast<uint32_t>(planes_.size() - 1);
   return s;
@@ -93,7 +99,9 @@ void Field::note(uint32_t row, int64_t residual, uint32_t step) {
   const auto magnitude = static_cast<uint32_t>(std::min<uint64_t>(size * step >> 8, kMagnitudeCap));
   magnitude_[row] = magnitude;
   running_ += magnitude;
-  running_ -= running_ / 32;
+  running_ -= running_ / kRunning;
+  recent_ += magnitude;
+  recent_ -= recent_ / kRecent;
 }
 
 void Field::finish_component(double energy) {
@@ -109,8 +117,9 @@ void Field::finish_component(double energy) {
     for (uint32_t i = begin; i < end; ++i) sum += history_[graph_.links[i]];
     ring_history_[r] = end > begin ? static_cast<uint32_t>(sum / (end - begin)) : 0;
   }
+  last_ = magnitude_;
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
-  running_ = 0;
+  running_ = recent_ = 0;
   if (!options_.adaptive) return;
   const double noise =
       options_.noise_share * (energy / (graph_.size() - graph_.size() / 4)) + options_.noise_floor;

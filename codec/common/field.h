@@ -8,7 +8,6 @@
 #include <iterator>
 #include <vector>
 
-#include "bitstream/headers.h"
 #include "codec/common/magnitude_model.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/weights.h"
@@ -19,12 +18,11 @@ struct FieldOptions {
   WeightOptions weights;
   double noise_share = 0.8;   ///< of a component's residual variance, as observation noise
   double noise_floor = 0.02;  ///< observation noise of a perfectly predicted component, in q^2
-  bool predict = true;        ///< along the surface; false codes the values as they are
   bool adaptive = true;  ///< re-estimate weights; false keeps those of the reference (fast profile)
 };
 
 /// Options of the two fields of a group.
-FieldOptions surface_field_options(Profile profile);
+FieldOptions surface_field_options(bool fast_profile);
 FieldOptions basis_field_options();
 
 /// Values are in units of the group's quantization step q.
@@ -50,10 +48,6 @@ class Field {
   }
 
  private:
-  /// In 1/65536 of q; without prediction no row matters to others, and all steps are equal.
-  uint32_t step_of(uint32_t row) const {
-    return options_.predict ? kStepTable[graph_.step_level[row]] : 65536;
-  }
   float predict(uint32_t row, const float* plane) const;
   Surroundings surroundings(uint32_t row) const;
   void note(uint32_t row, int64_t residual, uint32_t step);
@@ -66,10 +60,12 @@ class Field {
   std::deque<std::vector<float>>
       planes_;                          ///< a deque: the estimator keeps pointers to its elements
   std::vector<uint32_t> magnitude_;     ///< |n| * step of the component being coded, in q / 256
+  std::vector<uint32_t> last_;          ///< the magnitudes of the component before
   std::vector<uint32_t> history_;       ///< decaying mean of the magnitudes over components
   std::vector<uint32_t> ring_history_;  ///< mean history over linked rows
   std::vector<uint8_t> level_;
   uint32_t running_ = 0;  ///< decaying mean along the rows, times 32
+  uint32_t recent_ = 0;   ///< the same over fewer rows, times 4
 };
 
 template <class Residual>
@@ -78,7 +74,7 @@ void Field::code_component(Residual&& residual) {
   double energy = 0;
   for (uint32_t row = 0; row < graph_.size(); ++row) {
     const float prediction = predict(row, plane.data());
-    const uint32_t step = step_of(row);
+    const uint32_t step = kStepTable[graph_.step_level[row]];
     MagnitudeModel::Bins bins(model_, surroundings(row));
     const int64_t n = residual(row, prediction, step, bins);
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);

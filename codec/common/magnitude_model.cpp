@@ -9,13 +9,14 @@ namespace reeb {
 namespace {
 
 // Sizes of the context tables in entries of kBins decisions each; see `context` for what they hold.
-constexpr std::array<uint32_t, 6> kEntries = {16 * 16, 32, 16 * 12, 12 * 8, 24 * 8, 32 * 10};
+constexpr std::array<uint32_t, MagnitudeModel::kTables> kEntries = {
+    16 * 16, 32, 16 * 12, 12 * 8, 24 * 8, 32 * 10, 16 * 16, 16 * 16};
 constexpr uint32_t kWeightClasses = 6;
-constexpr uint32_t kAdaptationLimit = 250;
+constexpr uint32_t kAdaptationLimit = 100;
 
-constexpr std::array<uint32_t, 6> table_sizes() {
-  std::array<uint32_t, 6> sizes{};
-  for (int i = 0; i < 6; ++i) sizes[i] = kEntries[i] * MagnitudeModel::kBins;
+constexpr std::array<uint32_t, MagnitudeModel::kTables> table_sizes() {
+  std::array<uint32_t, MagnitudeModel::kTables> sizes{};
+  for (int i = 0; i < MagnitudeModel::kTables; ++i) sizes[i] = kEntries[i] * MagnitudeModel::kBins;
   return sizes;
 }
 
@@ -32,11 +33,11 @@ MagnitudeModel::MagnitudeModel()
     : mixer_(table_sizes(), kBins * kWeightClasses, kAdaptationLimit) {}
 
 MagnitudeModel::Context MagnitudeModel::context(const Surroundings& s) {
-  const uint32_t near = (2 * s.ring_mean + s.history + s.running) / 4;
-  const uint32_t all =
-      static_cast<uint32_t>((7 * uint64_t{s.ring_mean} + 3 * uint64_t{s.running} +
-                             5 * uint64_t{s.history} + 5 * uint64_t{s.ring_history}) /
-                            20);
+  const uint32_t near = (2 * s.ring_mean + s.history + s.recent) / 4;
+  const uint32_t all = static_cast<uint32_t>(
+      (3 * uint64_t{s.ring_mean} + 2 * uint64_t{s.extra_mean} + 4 * uint64_t{s.recent} +
+       uint64_t{s.running} + 5 * uint64_t{s.history} + 3 * uint64_t{s.ring_history}) /
+      18);
   Context c;
   c.base[0] = log_class(s.ring_mean, 16, 8) * 16 + log_class(s.history, 16, 8);
   c.base[1] = log_class(near, 32, 12);
@@ -44,14 +45,16 @@ MagnitudeModel::Context MagnitudeModel::context(const Surroundings& s) {
   c.base[3] = log_class(s.ring_max, 12, 6) * 8 + s.level;
   c.base[4] = log_class(all, 24, 10) * 8 + s.level;
   c.base[5] = std::min(31u, s.component) * 10 + log_class(all, 10, 5);
+  c.base[6] = log_class(s.recent, 16, 8) * 16 + log_class(s.last, 16, 8);
+  c.base[7] = log_class(s.extra_mean, 16, 8) * 16 + log_class((s.ring_mean + s.recent) / 2, 16, 8);
   c.weight_set = log_class(all, kWeightClasses, 5);
   c.escape = log_class(near, kEscapeClasses, 3);
   return c;
 }
 
 MagnitudeModel::Mixer::Prediction MagnitudeModel::predict(const Context& c, uint32_t bin) const {
-  std::array<uint32_t, 6> entries;
-  for (int i = 0; i < 6; ++i) entries[i] = c.base[i] * kBins + bin;
+  std::array<uint32_t, kTables> entries;
+  for (int i = 0; i < kTables; ++i) entries[i] = c.base[i] * kBins + bin;
   return mixer_.predict(entries, bin * kWeightClasses + c.weight_set);
 }
 

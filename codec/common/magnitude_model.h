@@ -1,5 +1,5 @@
-// Context-mixing model of quantized residuals: unary magnitude with an Exp-Golomb escape, then the
-// sign.
+// Context-mixing model of quantized residuals: bucket of the magnitude in unary with an Exp-Golomb
+// escape, place in the bucket, sign.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,22 @@
 
 namespace reeb {
 
+/// Magnitudes by buckets: eight of one value each, then four to the octave, so that a large
+/// magnitude takes few decisions and its distribution within a bucket is nearly even.
+namespace bucket {
+inline constexpr uint32_t kSingles = 8;
+
+constexpr uint32_t extra_bits(uint32_t b) { return b < kSingles ? 0 : (b - kSingles) / 4 + 1; }
+constexpr uint32_t begin(uint32_t b) {
+  return b < kSingles ? b : (4 + (b - kSingles) % 4) << extra_bits(b);
+}
+constexpr uint32_t of(uint64_t n) {
+  if (n < kSingles) return static_cast<uint32_t>(n);
+  const auto bits = static_cast<uint32_t>(std::bit_width(n)) - 3;
+  return static_cast<uint32_t>(n >> bits) - 4 + 4 * (bits - 1) + kSingles;
+}
+}  // namespace bucket
+
 /// What is known of a residual before it is coded, in 1/256 of its own quantization step.
 struct Surroundings {
   uint32_t ring_mean = 0;     ///< mean magnitude of the ring in this component
@@ -18,20 +34,25 @@ struct Surroundings {
   uint32_t history = 0;       ///< decaying mean of the row's magnitudes in earlier components
   uint32_t ring_history = 0;  ///< the same, averaged over the rows linked to it
   uint32_t running = 0;       ///< decaying mean over the rows coded just before
+  uint32_t recent = 0;        ///< the same, forgetting faster
+  uint32_t extra_mean = 0;    ///< mean magnitude of the neighbours beyond the ring
+  uint32_t last = 0;          ///< the row's magnitude in the previous component
   uint32_t level = 0;         ///< 0 .. 7, from the finest rows to the coarsest
   uint32_t component = 0;
 };
 
 class MagnitudeModel {
  public:
-  static constexpr uint32_t kBins = 18;  ///< unary decisions; the last one announces an escape
+  static constexpr uint32_t kBins = 24;  ///< magnitude buckets; what is beyond them escapes
+  static constexpr uint32_t kEscapeBegin = bucket::begin(kBins);
   static constexpr uint64_t kMaxMagnitude = (uint64_t{1} << 56) - 1;
 
-  using Mixer = BitMixer<6>;
+  static constexpr int kTables = 8;
+  using Mixer = BitMixer<kTables>;
 
   /// Table entries that the surroundings choose.
   struct Context {
-    std::array<uint32_t, 6> base;
+    std::array<uint32_t, kTables> base;
     uint32_t weight_set = 0;
     uint32_t escape = 0;
   };
@@ -60,27 +81,29 @@ class MagnitudeModel {
   /// The next magnitude down that has a code: past kMantissaBits the low bits are not coded, so
   /// that a far outlier costs little more than binary32 can tell of it.
   static uint64_t representable(uint64_t magnitude) {
-    if (magnitude < kBins) return magnitude;
-    const uint64_t target = magnitude - kBins + 1;
-    const int dropped = std::max(0, static_cast<int>(std::bit_width(target)) - 1 - kMantissaBits);
-    return (target >> dropped << dropped) + kBins - 1;
+    if (magnitude < kEscapeBegin) return magnitude;
+    const uint64_t target = magnitude - kEscapeBegin + 1;
+    const auto length = static_cast<uint32_t>(std::bit_width(target)) - 1;
+    const uint32_t dropped = std::max(length, kMantissaBits) - kMantissaBits;
+    return (target >> dropped << dropped) + kEscapeBegin - 1;
   }
 
   /// Codes and learns a residual of representable magnitude, |value| <= kMaxMagnitude.
   template <class Coder>
   int64_t code(Coder& coder, Bins& bins, int64_t value) {
     const auto wanted = static_cast<uint64_t>(value < 0 ? -value : value);
-    uint32_t unary = 0;
-    while (unary < kBins) {
-      const Mixer::Prediction& bin = bins[unary];
-      const bool more = coder.code(unary < wanted, bin.p1);
+    const uint32_t wanted_bucket = std::min(kBins, bucket::of(wanted));
+    uint32_t b = 0;
+    for (bool more = true; b < kBins && more; b += more ? 1 : 0) {
+      const Mixer::Prediction& bin = bins[b];
+      more = coder.code(b < wanted_bucket, bin.p1);
       mixer_.update(bin, more);
-      if (!more) break;
-      ++unary;
     }
-    if (unary == 0) return 0;
-    uint64_t magnitude = unary;
-    if (unary == kBins) magnitude += code_escape(coder, bins.escape(), wanted - kBins);
+    if (b == 0) return 0;
+    const uint64_t within = wanted - bucket::begin(b);
+    const uint64_t magnitude =
+        bucket::begin(b) + (b < kBins ? code_evenly(coder, bucket::extra_bits(b), within)
+                                      : code_escape(coder, bins.escape(), within));
     const bool negative = coder.code(value < 0, kEvenOdds);
     const auto signed_magnitude = static_cast<int64_t>(magnitude);
     return negative ? -signed_magnitude : signed_magnitude;
@@ -89,11 +112,21 @@ class MagnitudeModel {
  private:
   static constexpr uint32_t kEscapeClasses = 8;
   static constexpr uint32_t kEscapeLengths = 56;
-  static constexpr int kMantissaBits = 24;
+  static constexpr uint32_t kMantissaBits = 24;
   static constexpr uint32_t kEscapeLimit = 30;
 
   static Context context(const Surroundings& s);
   Mixer::Prediction predict(const Context& c, uint32_t bin) const;
+
+  /// The low `count` bits of a value, most significant first.
+  template <class Coder>
+  static uint64_t code_evenly(Coder& coder, uint32_t count, uint64_t value) {
+    uint64_t coded = 0;
+    for (uint32_t i = count; i-- > 0;) {
+      coded = coded << 1 | (coder.code((value >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
+    }
+    return coded;
+  }
 
   template <class Coder>
   uint64_t code_escape(Coder& coder, uint32_t escape_class, uint64_t excess) {
@@ -104,12 +137,9 @@ class MagnitudeModel {
     while (length < kEscapeLengths - 1 &&
            lengths[length].code(coder, length < wanted, kEscapeLimit))
       ++length;
-    uint64_t coded = 1;
-    for (uint32_t i = length; i-- > 0;) {
-      const bool sent = i + kMantissaBits >= length;
-      coded = coded << 1 | (sent && coder.code((target >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
-    }
-    return coded - 1;
+    const uint32_t dropped = std::max(length, kMantissaBits) - kMantissaBits;
+    const uint64_t mantissa = code_evenly(coder, length - dropped, target >> dropped);
+    return ((uint64_t{1} << length) | mantissa << dropped) - 1;
   }
 
   Mixer mixer_;

@@ -7,13 +7,12 @@ namespace reeb {
 
 namespace {
 
-/// Bits of a magnitude up to kBins, escape not included.
+/// Bits of a magnitude in one of the kBins buckets.
 double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
-  double bits = magnitude > 0 ? 1 : 0;
-  for (uint32_t i = 0; i < magnitude; ++i) bits += cost_of(bins[i].p1);
-  if (magnitude < MagnitudeModel::kBins)
-    bits += cost_of(static_cast<Probability>(65536 - bins[magnitude].p1));
-  return bits;
+  const uint32_t b = bucket::of(magnitude);
+  double bits = bucket::extra_bits(b) + (magnitude > 0 ? 1 : 0);
+  for (uint32_t i = 0; i < b; ++i) bits += cost_of(bins[i].p1);
+  return bits + cost_of(static_cast<Probability>(65536 - bins[b].p1));
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ int64_t FieldEncoder::decide(double residual, double step, double importance,
   const double size = std::min(std::abs(residual) / step, largest);
   const uint64_t nearest = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
   uint64_t best = nearest;
-  if (nearest > 0 && nearest <= MagnitudeModel::kBins) {
+  if (nearest > 0 && nearest < MagnitudeModel::kEscapeBegin) {
     double best_cost = 1e300;
     const auto consider = [&](uint32_t n) {
       const double error = (size - n) * step;
