@@ -18,9 +18,10 @@ uint32_t level_of(uint32_t row, uint32_t rows) {
 
 }  // namespace
 
-FieldOptions surface_field_options(bool fast_profile) {
+FieldOptions surface_field_options(Profile profile) {
   FieldOptions options;
-  options.adaptive = !fast_profile;
+  options.predict = profile != Profile::kThesis;
+  options.adaptive = profile == Profile::kMain;
   options.noise_share = 2.2;
   options.noise_floor = 0.2;
   options.weights.ring_deviation = 1.4;
@@ -56,6 +57,7 @@ void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t
 }
 
 float Field::predict(uint32_t row, const float* plane) const {
+  if (!options_.predict) return 0;
   const float* w = estimator_.weights(row);
   const auto& neighbour = graph_.rows[row].neighbour;
   float sum[4] = {0, 0, 0, 0};  // four running sums, so that vector units may take one each
@@ -75,7 +77,7 @@ Surroundings Field::surroundings(uint32_t row) const {
     largest = std::max(largest, magnitude_[r.neighbour[i]]);
   }
   for (uint32_t i = r.ring; i < r.count; ++i) extra += magnitude_[r.neighbour[i]];
-  const uint32_t step = kStepTable[graph_.step_level[row]];
+  const uint32_t step = step_of(row);
   const auto relative = [step](uint64_t x) {
     return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / step, kMagnitudeCap));
   };

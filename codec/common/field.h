@@ -8,6 +8,7 @@
 #include <iterator>
 #include <vector>
 
+#include "bitstream/headers.h"
 #include "codec/common/magnitude_model.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/weights.h"
@@ -18,11 +19,12 @@ struct FieldOptions {
   WeightOptions weights;
   double noise_share = 0.8;   ///< of a component's residual variance, as observation noise
   double noise_floor = 0.02;  ///< observation noise of a perfectly predicted component, in q^2
+  bool predict = true;        ///< along the surface; false codes the values as they are
   bool adaptive = true;  ///< re-estimate weights; false keeps those of the reference (fast profile)
 };
 
 /// Options of the two fields of a group.
-FieldOptions surface_field_options(bool fast_profile);
+FieldOptions surface_field_options(Profile profile);
 FieldOptions basis_field_options();
 
 /// Values are in units of the group's quantization step q.
@@ -48,6 +50,10 @@ class Field {
   }
 
  private:
+  /// In 1/65536 of q; without prediction no row matters to others, and all steps are equal.
+  uint32_t step_of(uint32_t row) const {
+    return options_.predict ? kStepTable[graph_.step_level[row]] : 65536;
+  }
   float predict(uint32_t row, const float* plane) const;
   Surroundings surroundings(uint32_t row) const;
   void note(uint32_t row, int64_t residual, uint32_t step);
@@ -74,7 +80,7 @@ void Field::code_component(Residual&& residual) {
   double energy = 0;
   for (uint32_t row = 0; row < graph_.size(); ++row) {
     const float prediction = predict(row, plane.data());
-    const uint32_t step = kStepTable[graph_.step_level[row]];
+    const uint32_t step = step_of(row);
     MagnitudeModel::Bins bins(model_, surroundings(row));
     const int64_t n = residual(row, prediction, step, bins);
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
