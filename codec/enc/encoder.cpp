@@ -10,6 +10,8 @@ namespace reeb {
 
 namespace {
 
+constexpr float kLargestPosition = 1e36f;  ///< leaves room for sums and differences in binary32
+
 Status check_shot(const Shot& shot, size_t index) {
   const std::string name = "shot " + std::to_string(index + 1);
   const Connectivity& c = shot.connectivity;
@@ -17,9 +19,13 @@ Status check_shot(const Shot& shot, size_t index) {
   if (shot.positions.size() != size_t{c.vertex_count} * 3 * shot.frame_count) {
     return Status::invalid(name + ": the number of positions does not match");
   }
-  const bool finite = std::all_of(shot.positions.begin(), shot.positions.end(),
-                                  [](float x) { return std::isfinite(x); });
-  return finite ? Status() : Status::invalid(name + " has a position that is not finite");
+  for (const float x : shot.positions) {
+    if (!std::isfinite(x)) return Status::invalid(name + " has a position that is not finite");
+    if (std::abs(x) > kLargestPosition) {
+      return Status::invalid(name + " has a position beyond 1e36; scale the input down");
+    }
+  }
+  return {};
 }
 
 Status check(const Sequence& sequence, const EncodeOptions& options) {

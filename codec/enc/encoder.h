@@ -48,8 +48,8 @@ struct EncodeStats {
   std::vector<std::string> notes;  ///< e.g. where a new reference starts
 };
 
-/// Encodes `sequence` (at least one frame and one vertex, all values finite). On failure `out` is
-/// empty.
+/// Encodes `sequence` (at least one frame and one vertex, all values finite and below 1e36). On
+/// failure `out` is empty.
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
               EncodeStats& stats);
 

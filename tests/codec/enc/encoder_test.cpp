@@ -63,7 +63,7 @@ TEST_CASE("empty and inconsistent sequences are refused", "[encoder]") {
 TEST_CASE("positions that are no numbers are refused", "[encoder]") {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-        -std::numeric_limits<float>::infinity()}) {
+        -std::numeric_limits<float>::infinity(), 3e38f, -2e36f}) {
     for (const size_t at : {size_t{0}, size_t{17}, size_t{35}}) {
       Sequence sequence = small();
       sequence.shots[0].positions[at] = bad;
