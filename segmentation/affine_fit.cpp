@@ -80,7 +80,10 @@ void AffineSums::add(const AffineSums& other) {
   energy += other.energy;
 }
 
-AffineMap affine_fit(const AffineSums& sums) { return factorised(sums.gram).solve(sums.cross); }
+AffineMap affine_fit(const AffineSums& sums) {
+  if (sums.cross.cols() == 0) return sums.cross;  // nothing moves
+  return factorised(sums.gram).solve(sums.cross);
+}
 
 double residual(const AffineSums& sums) {
   const double explained = affine_fit(sums).cwiseProduct(sums.cross).sum();
