@@ -6,15 +6,6 @@
 
 namespace reeb {
 
-namespace {
-
-/// sum[i] += scale * plane[i]
-void accumulate(float* sum, const float* plane, float scale, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) sum[i] += scale * plane[i];
-}
-
-}  // namespace
-
 GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes,
                                const std::vector<std::vector<float>>& basis,
                                std::vector<double> mean)
@@ -33,30 +24,31 @@ GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes, const flo
     mean_.push_back(static_cast<double>(origin[row % 3]));
 }
 
-void GroupSynthesis::sum_components(size_t row, uint32_t begin, uint32_t count, float* sum) const {
-  std::fill_n(sum, count, 0.0f);
-  if (direct_) {
-    accumulate(sum, planes_[row].data() + begin, basis_[row % 3], count);
+void GroupSynthesis::sum_components(uint32_t t, uint32_t begin, uint32_t count,
+                                    float* const sum[3]) const {
+  if (!direct_) {
+    kernels_.combine(planes_, basis_.data() + size_t{t} * 3 * planes_.size(), begin, count, sum);
     return;
   }
-  for (size_t k = 0; k < planes_.size(); ++k) {
-    accumulate(sum, planes_[k].data() + begin, basis_[row * planes_.size() + k], count);
+  for (uint32_t a = 0; a < 3; ++a) {
+    const std::vector<float>& plane = planes_[size_t{t} * 3 + a];
+    for (uint32_t i = 0; i < count; ++i) sum[a][i] = basis_[a] * plane[begin + i];
   }
 }
 
 void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* xyz,
                            size_t stride) const {
   const auto rows = static_cast<uint32_t>(output.size());
-  float sum[kBlock];
+  const double* mean = &mean_[size_t{t} * 3];
+  float x[kBlock], y[kBlock], z[kBlock];
+  float* const sum[3] = {x, y, z};
   for (uint32_t begin = 0; begin < rows; begin += kBlock) {
     const uint32_t count = std::min(kBlock, rows - begin);
-    for (uint32_t a = 0; a < 3; ++a) {
-      const size_t row = size_t{t} * 3 + a;
-      sum_components(row, begin, count, sum);
-      for (uint32_t i = 0; i < count; ++i) {
-        xyz[output[begin + i] * stride + a] =
-            static_cast<float>(mean_[row] + static_cast<double>(sum[i]));
-      }
+    sum_components(t, begin, count, sum);
+    for (uint32_t i = 0; i < count; ++i) {
+      float* p = xyz + output[begin + i] * stride;
+      for (uint32_t a = 0; a < 3; ++a)
+        p[a] = static_cast<float>(mean[a] + static_cast<double>(sum[a][i]));
     }
   }
 }

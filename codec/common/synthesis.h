@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codec/common/field.h"
+#include "codec/common/kernels.h"
 
 namespace reeb {
 
@@ -38,12 +39,13 @@ class GroupSynthesis {
   static constexpr uint32_t kBlock =
       512;  ///< rows summed at once; they stay in the first-level cache
 
-  void sum_components(size_t row, uint32_t begin, uint32_t count, float* sum) const;
+  void sum_components(uint32_t t, uint32_t begin, uint32_t count, float* const sum[3]) const;
 
   std::vector<std::vector<float>> planes_;
   std::vector<float> basis_;  ///< [time][axis][component]; [axis] in the thesis profile
   bool direct_ = false;       ///< planes are coordinates: the thesis profile
   std::vector<double> mean_;
+  Kernels kernels_ = fastest_kernels();
 };
 
 /// Euclidean norm of a plane, summed in binary64 in the order of its rows.

@@ -3,34 +3,14 @@
 #include <algorithm>
 #include <new>
 
+#include "codec/common/kernels.h"
 #include "codec/common/parallel.h"
-#include "codec/common/weights_kernel.h"
 
 namespace reeb {
 
-namespace base_kernel {
-extern const WeightKernels kKernels;
-}
-#ifdef REEB_X86_KERNELS
-namespace avx2_kernel {
-extern const WeightKernels kKernels;
-}
-namespace avx512_kernel {
-extern const WeightKernels kKernels;
-}
-#endif
-
-WeightKernels weight_kernels() {
-#ifdef REEB_X86_KERNELS
-  if (__builtin_cpu_supports("avx512f")) return avx512_kernel::kKernels;
-  if (__builtin_cpu_supports("avx2")) return avx2_kernel::kKernels;
-#endif
-  return base_kernel::kKernels;
-}
-
 struct WeightEstimator::Batches {
   std::vector<WeightBatch> items;
-  WeightKernels kernels = weight_kernels();
+  Kernels kernels = fastest_kernels();
 };
 
 namespace {

@@ -6,19 +6,19 @@
 #include <cstring>
 #include <random>
 
-#include "codec/common/weights_kernel.h"
+#include "codec/common/kernels.h"
 #include "tests/codec/shapes.h"
 
 namespace reeb {
 namespace base_kernel {
-extern const WeightKernels kKernels;
+extern const Kernels kKernels;
 }
 #ifdef __x86_64__
 namespace avx2_kernel {
-extern const WeightKernels kKernels;
+extern const Kernels kKernels;
 }
 namespace avx512_kernel {
-extern const WeightKernels kKernels;
+extern const Kernels kKernels;
 }
 #endif
 }  // namespace reeb
@@ -98,7 +98,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 /// Eight rows at work, from the first batch of the fixture on.
-std::vector<float> run_kernels(const WeightKernels& kernels, const Fixture& f, bool sum_to_one) {
+std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool sum_to_one) {
   std::vector<float> out(kLanes * kMaxNeighbours, 0.0f);
   auto batch = std::make_unique<WeightBatch>();
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -194,7 +194,7 @@ TEST_CASE("every instruction set gives the same bits", "[weights]") {
   const Fixture f(torus(16, 11));
   for (const bool sum_to_one : {false, true}) {
     const std::vector<float> base = run_kernels(base_kernel::kKernels, f, sum_to_one);
-    CHECK(same_bits(base, run_kernels(weight_kernels(), f, sum_to_one)));
+    CHECK(same_bits(base, run_kernels(fastest_kernels(), f, sum_to_one)));
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx2"))
       CHECK(same_bits(base, run_kernels(avx2_kernel::kKernels, f, sum_to_one)));

@@ -1,8 +1,10 @@
-// Bodies of the weight kernels, compiled once per instruction set; REEB_KERNEL_NAMESPACE tells
+// Bodies of the kernels, compiled once per instruction set; REEB_KERNEL_NAMESPACE tells
 // which. No function here may be shared between instruction sets, hence the namespace.
 #pragma once
 
-#include "codec/common/weights_kernel.h"
+#include <cstring>
+
+#include "codec/common/kernels.h"
 
 namespace reeb::REEB_KERNEL_NAMESPACE {
 
@@ -98,9 +100,50 @@ void solve(const WeightBatch& batch, bool sum_to_one, float* const out[kLanes]) 
   }
 }
 
+#if defined(__AVX512F__)
+constexpr uint32_t kFloats = 16;
+#elif defined(__AVX__)
+constexpr uint32_t kFloats = 8;
+#else
+constexpr uint32_t kFloats = 4;
+#endif
+/// A vector register of floats, loaded from anywhere in an array of them.
+using Floats =
+    float __attribute__((vector_size(kFloats * sizeof(float)), aligned(alignof(float)), may_alias));
+
+void combine_scalar(std::span<const std::vector<float>> planes, const float* scale, uint32_t at,
+                    float* const sum[3], uint32_t i) {
+  for (uint32_t a = 0; a < 3; ++a) {
+    float total = 0;
+    for (size_t k = 0; k < planes.size(); ++k)
+      total += scale[a * planes.size() + k] * planes[k][at];
+    sum[a][i] = total;
+  }
+}
+
+void combine(std::span<const std::vector<float>> planes, const float* scale, uint32_t begin,
+             uint32_t count, float* const sum[3]) {
+  constexpr uint32_t kVectors =
+      2;  // by three axes: sums that stay in registers while the components pass by
+  constexpr uint32_t kChunk = kFloats * kVectors;
+  uint32_t i = 0;
+  for (; i + kChunk <= count; i += kChunk) {
+    Floats total[3][kVectors] = {};
+    for (size_t k = 0; k < planes.size(); ++k) {
+      const float* plane = planes[k].data() + begin + i;
+      for (uint32_t j = 0; j < kVectors; ++j) {
+        const Floats values = *reinterpret_cast<const Floats*>(plane + j * kFloats);
+        for (uint32_t a = 0; a < 3; ++a) total[a][j] += scale[a * planes.size() + k] * values;
+      }
+    }
+    for (uint32_t a = 0; a < 3; ++a) std::memcpy(sum[a] + i, total[a], sizeof total[a]);
+  }
+  for (; i < count; ++i) combine_scalar(planes, scale, begin + i, sum, i);
+}
+
 }  // namespace
 
-extern const WeightKernels kKernels;
-const WeightKernels kKernels = {accumulate, solve};
+extern const Kernels kKernels;
+const Kernels kKernels = {accumulate, solve, combine};
 
 }  // namespace reeb::REEB_KERNEL_NAMESPACE

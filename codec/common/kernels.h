@@ -1,8 +1,11 @@
-// The arithmetic of weight estimation, eight rows at a time: every lane is one row and keeps its
-// own order of operations, so that any vector width gives the same bits.
+// The arithmetic that takes the decoder's time: weight estimation, eight rows at a time, and the
+// sum of components. Every lane is one row and keeps its own order of operations, so that any
+// vector width gives the same bits.
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "codec/common/prediction_graph.h"
 
@@ -35,12 +38,19 @@ using AccumulateKernel = void (*)(WeightBatch&, const float* values, double inve
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
 
-struct WeightKernels {
+/// For each axis a: sum[a][i] = (0 + scale[a][0] * planes[0][begin + i]) + scale[a][1] *
+/// planes[1][begin + i] + ..., i < count, scale[a][k] being scale[a * K + k]. All three at once,
+/// since reading the planes is what takes time.
+using CombineKernel = void (*)(std::span<const std::vector<float>> planes, const float* scale,
+                               uint32_t begin, uint32_t count, float* const sum[3]);
+
+struct Kernels {
   AccumulateKernel accumulate;
   SolveKernel solve;
+  CombineKernel combine;
 };
 
 /// The quickest kernels this processor has.
-WeightKernels weight_kernels();
+Kernels fastest_kernels();
 
 }  // namespace reeb
