@@ -1,6 +1,7 @@
 // The `reeb` command.
 #include "tools/command.h"
 #include "tools/interrupt.h"
+#include "tools/segment_command.h"
 #include "tools/version.h"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   add_sample_command(app, exit_code);
   add_picture_command(app, exit_code);
   add_plot_command(app, exit_code);
+  add_segment_command(app, exit_code);
 
   try {
     app.parse(argc, argv);
