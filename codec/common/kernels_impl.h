@@ -107,9 +107,8 @@ constexpr uint32_t kFloats = 8;
 #else
 constexpr uint32_t kFloats = 4;
 #endif
-/// A vector register of floats, loaded from anywhere in an array of them.
-using Floats =
-    float __attribute__((vector_size(kFloats * sizeof(float)), aligned(alignof(float)), may_alias));
+/// A vector register of floats.
+using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
 
 void combine_scalar(std::span<const std::vector<float>> planes, const float* scale, uint32_t at,
                     float* const sum[3], uint32_t i) {
@@ -132,7 +131,8 @@ void combine(std::span<const std::vector<float>> planes, const float* scale, uin
     for (size_t k = 0; k < planes.size(); ++k) {
       const float* plane = planes[k].data() + begin + i;
       for (uint32_t j = 0; j < kVectors; ++j) {
-        const Floats values = *reinterpret_cast<const Floats*>(plane + j * kFloats);
+        Floats values;
+        std::memcpy(&values, plane + j * kFloats, sizeof values);  // not aligned
         for (uint32_t a = 0; a < 3; ++a) total[a][j] += scale[a * planes.size() + k] * values;
       }
     }
