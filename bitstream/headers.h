@@ -11,6 +11,7 @@ namespace reeb {
 
 inline constexpr uint8_t kFormatVersion = 1;
 inline constexpr uint32_t kMaxGroupFrames = 65536;
+inline constexpr uint32_t kMaxVertices = 1u << 25;
 inline constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 
 /// Chunk `HEAD`.
@@ -69,7 +70,7 @@ struct MeshHeader {
 
 template <class V>
 void describe(V& v, MeshHeader& h) {
-  v.uv("vertex_count", h.vertex_count, 1, kMaxUint32);
+  v.uv("vertex_count", h.vertex_count, 1, kMaxVertices);
   v.uv("face_count", h.face_count, 0, kMaxUint32);
   v.flags("flags", h.flags, MeshHeader::kOrderKept);
   v.uv("draco_bytes", h.draco_bytes, 0, kMaxUint32);

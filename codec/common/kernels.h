@@ -4,8 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 #include "codec/common/prediction_graph.h"
 
@@ -38,11 +36,12 @@ using AccumulateKernel = void (*)(WeightBatch&, const float* values, double inve
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
 
-/// For each axis a: sum[a][i] = (0 + scale[a][0] * planes[0][begin + i]) + scale[a][1] *
-/// planes[1][begin + i] + ..., i < count, scale[a][k] being scale[a * K + k]. All three at once,
-/// since reading the planes is what takes time.
-using CombineKernel = void (*)(std::span<const std::vector<float>> planes, const float* scale,
-                               uint32_t begin, uint32_t count, float* const sum[3]);
+/// For each axis a: sum[a][i] = (0 + scale[a][0] * planes[0][i]) + scale[a][1] * planes[1][i] +
+/// ..., i < count, scale[a][k] being scale[a * plane_count + k]. All three at once, since reading
+/// the planes is what takes time. Plain pointers: inline members of containers, compiled for one
+/// instruction set, could be linked in for all.
+using CombineKernel = void (*)(const float* const* planes, uint32_t plane_count, const float* scale,
+                               uint32_t count, float* const sum[3]);
 
 struct Kernels {
   AccumulateKernel accumulate;

@@ -110,35 +110,32 @@ constexpr uint32_t kFloats = 4;
 /// A vector register of floats.
 using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
 
-void combine_scalar(std::span<const std::vector<float>> planes, const float* scale, uint32_t at,
-                    float* const sum[3], uint32_t i) {
+void combine_scalar(const float* const* planes, uint32_t plane_count, const float* scale,
+                    uint32_t i, float* const sum[3]) {
   for (uint32_t a = 0; a < 3; ++a) {
     float total = 0;
-    for (size_t k = 0; k < planes.size(); ++k)
-      total += scale[a * planes.size() + k] * planes[k][at];
+    for (uint32_t k = 0; k < plane_count; ++k) total += scale[a * plane_count + k] * planes[k][i];
     sum[a][i] = total;
   }
 }
 
-void combine(std::span<const std::vector<float>> planes, const float* scale, uint32_t begin,
-             uint32_t count, float* const sum[3]) {
-  constexpr uint32_t kVectors =
-      2;  // by three axes: sums that stay in registers while the components pass by
+void combine(const float* const* planes, uint32_t plane_count, const float* scale, uint32_t count,
+             float* const sum[3]) {
+  constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
   constexpr uint32_t kChunk = kFloats * kVectors;
   uint32_t i = 0;
   for (; i + kChunk <= count; i += kChunk) {
     Floats total[3][kVectors] = {};
-    for (size_t k = 0; k < planes.size(); ++k) {
-      const float* plane = planes[k].data() + begin + i;
+    for (uint32_t k = 0; k < plane_count; ++k) {
       for (uint32_t j = 0; j < kVectors; ++j) {
         Floats values;
-        std::memcpy(&values, plane + j * kFloats, sizeof values);  // not aligned
-        for (uint32_t a = 0; a < 3; ++a) total[a][j] += scale[a * planes.size() + k] * values;
+        std::memcpy(&values, planes[k] + i + j * kFloats, sizeof values);  // not aligned
+        for (uint32_t a = 0; a < 3; ++a) total[a][j] += scale[a * plane_count + k] * values;
       }
     }
     for (uint32_t a = 0; a < 3; ++a) std::memcpy(sum[a] + i, total[a], sizeof total[a]);
   }
-  for (; i < count; ++i) combine_scalar(planes, scale, begin + i, sum, i);
+  for (; i < count; ++i) combine_scalar(planes, plane_count, scale, i, sum);
 }
 
 }  // namespace

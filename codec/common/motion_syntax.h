@@ -51,7 +51,8 @@ class BindingCoder {
   }
 
  private:
-  /// Regions of the ring, most frequent first, ties by first occurrence; without `except`.
+  /// Regions of the ring, most frequent first, ties by which reached the count first; without
+  /// `except`.
   std::vector<uint32_t> regions_around(uint32_t row, uint32_t except) const;
   uint32_t blended_around(uint32_t row) const;
 

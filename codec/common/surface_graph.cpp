@@ -88,7 +88,7 @@ class SurfaceGraphBuilder {
   }
 
  private:
-  /// Vertices on an edge of one triangle, or without triangles: others may lie at the same place,
+  /// Vertices on an edge of one triangle: others may lie at the same place,
   /// moving alike.
   void mark_boundary(std::span<const uint32_t> triangles) {
     std::vector<uint64_t> edges;

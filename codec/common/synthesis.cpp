@@ -24,15 +24,22 @@ GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes, const flo
     mean_.push_back(static_cast<double>(origin[row % 3]));
 }
 
-void GroupSynthesis::sum_components(uint32_t t, uint32_t begin, uint32_t count,
+bool GroupSynthesis::finite() const {
+  return std::all_of(mean_.begin(), mean_.end(), [](double x) { return std::isfinite(x); }) &&
+         std::all_of(basis_.begin(), basis_.end(), [](float x) { return std::isfinite(x); });
+}
+
+void GroupSynthesis::sum_components(uint32_t t, const float* const* planes, uint32_t count,
                                     float* const sum[3]) const {
+  const auto plane_count = static_cast<uint32_t>(planes_.size());
   if (!direct_) {
-    kernels_.combine(planes_, basis_.data() + size_t{t} * 3 * planes_.size(), begin, count, sum);
+    const float* scale = basis_.data() + size_t{t} * 3 * plane_count;
+    kernels_.combine(planes, plane_count, scale, count, sum);
     return;
   }
   for (uint32_t a = 0; a < 3; ++a) {
-    const std::vector<float>& plane = planes_[size_t{t} * 3 + a];
-    for (uint32_t i = 0; i < count; ++i) sum[a][i] = basis_[a] * plane[begin + i];
+    const float* plane = planes[size_t{t} * 3 + a];
+    for (uint32_t i = 0; i < count; ++i) sum[a][i] = basis_[a] * plane[i];
   }
 }
 
@@ -42,14 +49,17 @@ void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* 
   const double* mean = &mean_[size_t{t} * 3];
   float x[kBlock], y[kBlock], z[kBlock];
   float* const sum[3] = {x, y, z};
+  std::vector<const float*> planes;
+  for (const std::vector<float>& plane : planes_) planes.push_back(plane.data());
   for (uint32_t begin = 0; begin < rows; begin += kBlock) {
     const uint32_t count = std::min(kBlock, rows - begin);
-    sum_components(t, begin, count, sum);
+    sum_components(t, planes.data(), count, sum);
     for (uint32_t i = 0; i < count; ++i) {
       float* p = xyz + output[begin + i] * stride;
       for (uint32_t a = 0; a < 3; ++a)
         p[a] = static_cast<float>(mean[a] + static_cast<double>(sum[a][i]));
     }
+    for (const float*& plane : planes) plane += count;
   }
 }
 

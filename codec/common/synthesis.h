@@ -26,9 +26,11 @@ class GroupSynthesis {
                  const float origin[3]);
 
   uint32_t frame_count() const { return static_cast<uint32_t>(mean_.size() / 3); }
+  /// False where basis or mean trajectory is beyond binary32 or binary64: no position is defined.
+  bool finite() const;
   /// Mean trajectory and the K basis values of row = time * 3 + axis, world units.
   double mean(size_t row) const { return mean_[row]; }
-  const float* basis(size_t row) const { return &basis_[row * planes_.size()]; }
+  const float* basis(size_t row) const { return basis_.data() + row * planes_.size(); }
 
   /// x(v, t) = round(mean(t) + sum_k basis_k(t) plane_k(v)): the sum in binary32 in the order of k,
   /// the last addition in binary64, rounded once to binary32. Row r is written to xyz + output[r] *
@@ -39,7 +41,9 @@ class GroupSynthesis {
   static constexpr uint32_t kBlock =
       512;  ///< rows summed at once; they stay in the first-level cache
 
-  void sum_components(uint32_t t, uint32_t begin, uint32_t count, float* const sum[3]) const;
+  /// `planes` point at the block's first row of each plane.
+  void sum_components(uint32_t t, const float* const* planes, uint32_t count,
+                      float* const sum[3]) const;
 
   std::vector<std::vector<float>> planes_;
   std::vector<float> basis_;  ///< [time][axis][component]; [axis] in the thesis profile

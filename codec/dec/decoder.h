@@ -1,4 +1,5 @@
-// Decoder of `.reeb` streams: opens hostile bytes safely and gives any frame, bit-exact on every machine.
+// Decoder of `.reeb` streams: opens hostile bytes safely and gives any frame, bit-exact on every
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,7 @@ struct StreamInfo {
     uint32_t first_frame = 0;  ///< in the sequence
     uint32_t frame_count = 0;
     uint32_t shot = 0;
-    uint32_t region_count = 0;  ///< regions of the affine motion model; 0 where it is not used
+    uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
     uint32_t component_count = 0;  ///< temporal components
     uint64_t bytes = 0;
   };
@@ -52,7 +53,8 @@ struct StreamInfo {
   uint64_t file_bytes = 0;
 };
 
-/// One open stream. Not copyable; one thread at a time per object, several objects at once are fine.
+/// One open stream. Not copyable; one thread at a time per object, several objects at once are
+/// fine.
 class Decoder {
  public:
   /// Reads headers, not frames. The bytes must outlive the decoder.
@@ -67,8 +69,8 @@ class Decoder {
   /// Faces of the shot that holds `frame`. The pointer lives as long as the decoder.
   Status connectivity(uint32_t frame, const Connectivity*& out);
 
-  /// Writes vertex v's xyz to `xyz + v * stride`, `stride` in floats (>= 3). Any order of frames; costs at
-  /// most one group, nothing but a small product when the group is the one decoded last.
+  /// Writes vertex v's xyz to `xyz + v * stride`, `stride` in floats (>= 3). Any order of frames;
+  /// costs at most one group, nothing but a small product when the group is the one decoded last.
   Status decode_frame(uint32_t frame, float* xyz, size_t stride = 3);
 
  private:

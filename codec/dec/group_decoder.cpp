@@ -22,10 +22,24 @@ bool decode_component(Field& field, BinaryDecoder& decoder) {
   return !decoder.overrun();
 }
 
+/// What the fields of the header must be to each other.
+Status check_header(const GroupHeader& h) {
+  const uint64_t coordinates = 3 * uint64_t{h.frame_count};
+  const bool thesis = h.profile == Profile::kThesis;
+  if (h.component_count > coordinates || (thesis && h.component_count != coordinates)) {
+    return Status::corrupt("component_count does not fit the group's frames");
+  }
+  if (h.region_count > MotionModel::kMaxRegions) {
+    return Status::corrupt("region_count is out of range");
+  }
+  if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
+    return Status::corrupt("a section is there that the group does not use");
+  }
+  return {};
+}
+
 Status decode_motion(const GroupChunk& chunk, const DecodedSurface& surface, MotionModel& motion) {
   if (chunk.header.region_count == 0) return {};
-  if (chunk.header.region_count > MotionModel::kMaxRegions)
-    return Status::corrupt("region_count is out of range");
   BinaryDecoder decoder(chunk.motion);
   motion = MotionModel(chunk.header.region_count, chunk.header.component_count);
   const uint32_t stride = chunk.header.profile == Profile::kThesis ? MotionModel::kFrameStride : 0;
@@ -69,19 +83,17 @@ Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
 
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     GroupSynthesis& out) {
-  const GroupHeader& header = chunk.header;
-  const uint64_t coordinates = 3 * uint64_t{header.frame_count};
-  const bool thesis = header.profile == Profile::kThesis;
-  if (header.component_count > coordinates || (thesis && header.component_count != coordinates)) {
-    return Status::corrupt("component_count does not fit the group's frames");
-  }
+  if (Status s = check_header(chunk.header); !s.ok()) return s;
   MotionModel motion;
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
   std::vector<std::vector<float>> planes;
   if (Status s = decode_coefficients(chunk, surface, motion, threads, planes); !s.ok()) return s;
-  if (!thesis) return decode_basis(chunk, surface, std::move(planes), out);
-  out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);
-  return {};
+  if (chunk.header.profile == Profile::kThesis) {
+    out = GroupSynthesis(std::move(planes), chunk.header.axis_step, surface.origin);
+  } else if (Status s = decode_basis(chunk, surface, std::move(planes), out); !s.ok()) {
+    return s;
+  }
+  return out.finite() ? Status() : Status::corrupt("the group's basis is out of range");
 }
 
 }  // namespace reeb
