@@ -322,9 +322,9 @@ Status ContainerReader::parse(std::span<const uint8_t> file, const Limits& limit
 }
 
 const ReferenceChunk* ContainerReader::reference(uint32_t shot) const {
-  const auto same = [&](const ReferenceChunk& r) { return r.header.shot == shot; };
-  const auto at = std::find_if(references.begin(), references.end(), same);
-  return at == references.end() ? nullptr : &*at;
+  const auto before = [](const ReferenceChunk& r, uint32_t s) { return r.header.shot < s; };
+  const auto at = std::lower_bound(references.begin(), references.end(), shot, before);
+  return at == references.end() || at->header.shot != shot ? nullptr : &*at;
 }
 
 }  // namespace reeb

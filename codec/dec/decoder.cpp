@@ -1,10 +1,11 @@
 #include "codec/dec/decoder.h"
 
 #include <algorithm>
-#include <optional>
+#include <map>
 #include <utility>
 
 #include "bitstream/container.h"
+#include "codec/common/motion_model.h"
 #include "codec/common/parallel.h"
 #include "codec/dec/group_decoder.h"
 #include "codec/dec/reference_decoder.h"
@@ -13,13 +14,23 @@ namespace reeb {
 
 namespace {
 
-constexpr uint64_t kBytesPerVertex =
-    2600;  ///< of weights, graph and contexts while a group is decoded
+constexpr uint64_t kBytesPerRow =
+    2600;  ///< of weights, graph and contexts of a field while it is decoded
 
-struct DecodedShot {
-  DecodedSurface surface;
-  Connectivity connectivity;
-};
+/// Bytes that decoding a group takes at most.
+uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
+  const uint64_t components = h.component_count;
+  const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
+  // The basis is there as it was decoded, by component and by frame.
+  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 12 * (components + 1));
+  const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
+                                        uint64_t{h.region_count} * sizeof(MotionModel::Transform));
+  return surface + basis + motion;
+}
+
+uint64_t connectivity_memory(const Connectivity& c) {
+  return sizeof(uint32_t) * (c.face_sizes.size() + c.corners.size());
+}
 
 StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
   StreamInfo info;
@@ -37,7 +48,9 @@ StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
     const GroupHeader& h = g.header;
     info.groups.push_back(
         {h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count, g.size});
-    if (h.shot < info.shots.size()) info.shots[h.shot].frame_count += h.frame_count;
+    if (const ReferenceChunk* r = container.reference(h.shot)) {
+      info.shots[static_cast<size_t>(r - container.references.data())].frame_count += h.frame_count;
+    }
     info.frame_count = std::max(info.frame_count, h.first_frame + h.frame_count);
   }
   for (const auto& [name, bytes] : container.sections) info.sections.push_back({name, bytes});
@@ -51,14 +64,17 @@ struct Decoder::Impl {
   ContainerReader container;
   DecodeOptions options;
   StreamInfo info;
-  std::vector<std::optional<DecodedShot>> shots;  ///< by shot, decoded when first needed
-  size_t open_group = SIZE_MAX;
+  std::map<uint32_t, Connectivity> connectivities;  ///< of the shots met so far, for good
+  uint64_t held = 0;                                ///< bytes of them
+  uint32_t surface_shot = UINT32_MAX;               ///< shot of `surface`
+  DecodedSurface surface;
+  size_t open_group = SIZE_MAX;  ///< group of `synthesis`, always of `surface_shot`
   GroupSynthesis synthesis;
 
   Status find_group(uint32_t frame, size_t& index) const;
   Status open_shot(uint32_t shot);
   Status open(size_t group);
-  Status check_memory(uint64_t vertices, uint64_t components) const;
+  Status check_memory(uint64_t bytes) const;
 };
 
 Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
@@ -78,28 +94,29 @@ Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
   return {};
 }
 
-Status Decoder::Impl::check_memory(uint64_t vertices, uint64_t components) const {
-  if (vertices * (kBytesPerVertex + 4 * components) <= options.limits.max_memory) return {};
-  return Status::limit("a group needs more memory than the limit allows");
+Status Decoder::Impl::check_memory(uint64_t bytes) const {
+  if (held + bytes <= options.limits.max_memory) return {};
+  return Status::limit("the stream needs more memory than the limit allows");
 }
 
 Status Decoder::Impl::open_shot(uint32_t shot) {
-  if (shot >= shots.size()) shots.resize(size_t{shot} + 1);
-  if (shots[shot]) return {};
+  if (shot == surface_shot) return {};
   const ReferenceChunk* chunk = container.reference(shot);
   if (chunk == nullptr)
     return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
-  if (Status s = check_memory(chunk->mesh_header.vertex_count, 0); !s.ok()) return s;
+  if (Status s = check_memory(chunk->mesh_header.vertex_count * kBytesPerRow); !s.ok()) return s;
+  surface_shot = UINT32_MAX;
+  open_group = SIZE_MAX;
   ReferenceMesh mesh;
   if (Status s = decode_reference(chunk->mesh, options.limits, mesh); !s.ok()) return s;
-  DecodedShot out;
-  out.surface.grid = std::move(mesh.grid);
-  out.surface.surface = build_surface_graph(GridPoints(out.surface.grid), mesh.triangles);
-  for (const uint32_t v : out.surface.surface.order)
-    out.surface.output.push_back(mesh.output_index[v]);
-  std::copy(std::begin(chunk->header.origin), std::end(chunk->header.origin), out.surface.origin);
-  out.connectivity = std::move(mesh.connectivity);
-  shots[shot] = std::move(out);
+  surface.grid = std::move(mesh.grid);
+  surface.surface = build_surface_graph(GridPoints(surface.grid), mesh.triangles);
+  surface.output.clear();
+  for (const uint32_t v : surface.surface.order) surface.output.push_back(mesh.output_index[v]);
+  std::copy(std::begin(chunk->header.origin), std::end(chunk->header.origin), surface.origin);
+  surface_shot = shot;
+  const auto [at, added] = connectivities.try_emplace(shot, std::move(mesh.connectivity));
+  if (added) held += connectivity_memory(at->second);
   return {};
 }
 
@@ -107,9 +124,7 @@ Status Decoder::Impl::open(size_t group) {
   if (group == open_group) return {};
   const GroupChunk& chunk = container.groups[group];
   if (Status s = open_shot(chunk.header.shot); !s.ok()) return s;
-  const DecodedSurface& surface = shots[chunk.header.shot]->surface;
-  if (Status s = check_memory(surface.output.size(), chunk.header.component_count); !s.ok())
-    return s;
+  if (Status s = check_memory(group_memory(surface.output.size(), chunk.header)); !s.ok()) return s;
   open_group = SIZE_MAX;
   if (Status s = decode_group(chunk, surface, resolve_threads(options.threads), synthesis); !s.ok())
     return s;
@@ -136,8 +151,10 @@ Status Decoder::connectivity(uint32_t frame, const Connectivity*& out) {
   size_t group = 0;
   if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
   const uint32_t shot = impl_->container.groups[group].header.shot;
-  if (Status s = impl_->open_shot(shot); !s.ok()) return s;
-  out = &impl_->shots[shot]->connectivity;
+  if (!impl_->connectivities.contains(shot)) {
+    if (Status s = impl_->open_shot(shot); !s.ok()) return s;
+  }
+  out = &impl_->connectivities.at(shot);
   return {};
 }
 
@@ -146,33 +163,57 @@ Status Decoder::decode_frame(uint32_t frame, float* xyz, size_t stride) {
   if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
   if (Status s = impl_->open(group); !s.ok()) return s;
   const GroupHeader& header = impl_->container.groups[group].header;
-  impl_->synthesis.frame(frame - header.first_frame, impl_->shots[header.shot]->surface.output, xyz,
-                         stride);
+  impl_->synthesis.frame(frame - header.first_frame, impl_->surface.output, xyz, stride);
   return {};
 }
+
+namespace {
+
+/// Appends the group's frames to `shot`, which has all earlier ones.
+Status append_group(Decoder& decoder, const StreamInfo::Group& group, Shot& shot) {
+  const size_t frame_size = size_t{shot.connectivity.vertex_count} * 3;
+  shot.positions.resize(frame_size * (shot.frame_count + group.frame_count));
+  for (uint32_t t = 0; t < group.frame_count; ++t) {
+    float* xyz = shot.positions.data() + frame_size * shot.frame_count++;
+    if (Status s = decoder.decode_frame(group.first_frame + t, xyz, 3); !s.ok()) return s;
+  }
+  return {};
+}
+
+/// Frames of each shot.
+std::map<uint32_t, uint64_t> count_frames(const StreamInfo& info) {
+  std::map<uint32_t, uint64_t> out;
+  for (const StreamInfo::Group& group : info.groups) out[group.shot] += group.frame_count;
+  return out;
+}
+
+}  // namespace
 
 Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
                        Sequence& out) {
   std::unique_ptr<Decoder> decoder;
   if (Status s = Decoder::open(bytes, options, decoder); !s.ok()) return s;
   const StreamInfo& info = decoder->info();
+  const std::map<uint32_t, uint64_t> frames = count_frames(info);
+  uint64_t floats = 0;
+  uint32_t newest = UINT32_MAX;
   Sequence sequence;
   sequence.frame_rate = info.frame_rate;
   sequence.start_time = info.start_time;
   for (const auto& [key, value] : info.metadata) sequence.metadata[key] = value;
   for (const StreamInfo::Group& group : info.groups) {
-    if (group.shot >= sequence.shots.size()) sequence.shots.resize(size_t{group.shot} + 1);
-    Shot& shot = sequence.shots[group.shot];
-    const Connectivity* connectivity = nullptr;
-    if (Status s = decoder->connectivity(group.first_frame, connectivity); !s.ok()) return s;
-    if (shot.frame_count == 0) shot.connectivity = *connectivity;
-    const size_t frame_size = size_t{connectivity->vertex_count} * 3;
-    shot.positions.resize(frame_size * (shot.frame_count + group.frame_count));
-    for (uint32_t t = 0; t < group.frame_count; ++t) {
-      float* xyz = shot.positions.data() + frame_size * (shot.frame_count + t);
-      if (Status s = decoder->decode_frame(group.first_frame + t, xyz, 3); !s.ok()) return s;
+    if (group.shot != newest) {
+      const Connectivity* connectivity = nullptr;
+      if (Status s = decoder->connectivity(group.first_frame, connectivity); !s.ok()) return s;
+      floats += 3 * connectivity->vertex_count * frames.at(group.shot);
+      if (floats > options.limits.max_memory / sizeof(float))
+        return Status::limit("the sequence needs more memory than the limit allows");
+      sequence.shots.emplace_back().connectivity = *connectivity;
+      sequence.shots.back().positions.reserve(3 * connectivity->vertex_count *
+                                              frames.at(group.shot));
+      newest = group.shot;
     }
-    shot.frame_count += group.frame_count;
+    if (Status s = append_group(*decoder, group, sequence.shots.back()); !s.ok()) return s;
   }
   out = std::move(sequence);
   return {};
