@@ -57,6 +57,7 @@ struct Fixture {
 Eigen::VectorXd best_weights(const Fixture& f, uint32_t r, const WeightOptions& options) {
   const PredictionGraph::Row& row = f.surface.graph.rows[r];
   const Eigen::Index n = row.count;
+  if (n == 0) return {};
   const Eigen::Index size = n + (options.sum_to_one ? 1 : 0);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(size);

@@ -1,0 +1,19 @@
+// Counts what this program holds by operator new, so that tests can bound it.
+#pragma once
+
+#include <cstddef>
+
+namespace reeb::test {
+
+/// Largest number of bytes held at once since construction, less those held then; always 0 where
+/// the C library does not tell the size of a block.
+class AllocationMeter {
+ public:
+  AllocationMeter();
+  size_t peak() const;
+
+ private:
+  size_t before_;
+};
+
+}  // namespace reeb::test
