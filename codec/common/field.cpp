@@ -123,8 +123,8 @@ void Field::finish_component(double energy) {
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
   running_ = recent_ = 0;
   if (!options_.adaptive) return;
-  const double noise =
-      options_.noise_share * (energy / (graph_.size() - graph_.size() / 4)) + options_.noise_floor;
+  const uint32_t fine_rows = graph_.size() - graph_.size() / 4;
+  const double noise = options_.noise_share * (energy / fine_rows) + options_.noise_floor;
   estimator_.observe(planes_.back().data(), noise);
   if (resolve_after(k)) estimator_.solve();
 }

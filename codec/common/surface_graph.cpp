@@ -141,7 +141,8 @@ class SurfaceGraphBuilder {
       if (i < row.ring) sum += inverse[i] = inverse_distance(v, u);
     }
     for (uint32_t i = 0; i < row.ring; ++i) {
-      row.prior[i] = static_cast<float>((uint64_t{inverse[i]} << 16) / sum) / 65536.0f;
+      const uint64_t share = (uint64_t{inverse[i]} << 16) / sum;
+      row.prior[i] = static_cast<float>(share) / 65536.0f;
     }
     assign_precision(row, v);
     return row;
