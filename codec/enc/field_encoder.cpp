@@ -26,8 +26,8 @@ FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double la
 
 int64_t FieldEncoder::decide(double residual, double step, double importance,
                              MagnitudeModel::Bins& bins) const {
-  const auto largest = static_cast<double>(MagnitudeModel::kMaxMagnitude / 2);
-  const double size = std::min(std::abs(residual) / step, largest);
+  constexpr auto kLargest = MagnitudeModel::kMaxMagnitude / 2;
+  const double size = std::min(std::abs(residual) / step, static_cast<double>(kLargest));
   const uint64_t nearest = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
   uint64_t best = nearest;
   if (nearest > 0 && nearest < MagnitudeModel::kEscapeBegin) {
