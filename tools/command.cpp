@@ -43,6 +43,20 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
       ->group("Running");
 }
 
+std::string check_positive(const std::string& text) {
+  double value = 0;
+  std::string rest;
+  return parse_positive(text, value, rest) && rest.empty()
+             ? ""
+             : "'" + text + "' is not a number above 0";
+}
+
+std::string check_not_negative(const std::string& text) {
+  double value = 0;
+  const bool good = CLI::detail::lexical_cast(text, value) && value >= 0;
+  return good ? "" : "'" + text + "' is not a number of 0 or more";
+}
+
 int fail(Console& console, const Status& status) {
   console.error(status.message());
   return kExitFailed;

@@ -29,6 +29,10 @@ void add_console_options(CLI::App& command, ConsoleOptions& options);
 /// -T/--threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 
+/// Check of an option: a number above 0, or not below it. Unlike the library's own, they say so.
+std::string check_positive(const std::string& text);
+std::string check_not_negative(const std::string& text);
+
 /// Shows the message of a failed status and gives its exit code.
 int fail(Console& console, const Status& status);
 

@@ -163,7 +163,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   command->add_flag("--per-frame", o->per_frame, "Figures of every frame too");
   command->add_flag("--allow-gaps", o->allow_gaps, "Missing frame numbers are not an error");
   command->add_option("--tolerance", o->kg_tolerance, "KG error allowed, in percent, >= 0")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(check_not_negative)
       ->type_name("P")
       ->group("Tolerance (exit code 3 beyond)");
   command

@@ -144,7 +144,7 @@ void add_target_options(CLI::App& command, Options& o) {
   const std::string group = "Target (one of them; default --kg 0.05)";
   std::vector<CLI::Option*> targets;
   targets.push_back(command.add_option("--kg", o.kg, "KG error in percent, > 0")
-                        ->check(CLI::PositiveNumber.description(""))
+                        ->check(check_positive)
                         ->type_name("P"));
   targets.push_back(command
                         .add_option_function<std::string>(
@@ -157,7 +157,7 @@ void add_target_options(CLI::App& command, Options& o) {
                             "E% of the bounding-box diagonal of the sequence")
                         ->type_name("E"));
   targets.push_back(command.add_option("--bpvf", o.bpvf, "Bits per vertex and frame, > 0")
-                        ->check(CLI::PositiveNumber.description(""))
+                        ->check(check_positive)
                         ->type_name("R"));
   targets.push_back(command
                         .add_option_function<std::string>(
@@ -229,7 +229,7 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   add_target_options(*command, *o);
   add_coding_options(*command, *o);
   command->add_option("--fps", o->frame_rate, "Frames per second, > 0; default as in the input")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(check_positive)
       ->type_name("R")
       ->group("Time");
   command->add_option("--start", o->start_time, "Time of the first frame, in frames")
