@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr uint32_t kMostFrames = 16;
+constexpr uint32_t kMostFrames = 8;
 
 std::vector<float> decode(std::span<const uint8_t> bytes, bool backwards) {
   reeb::DecodeOptions options;
