@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <utility>
 
+#include "segmentation/edge_paths.h"
 #include "segmentation/surface.h"
 
 namespace reeb::segmentation {
@@ -117,26 +117,10 @@ class Rigger {
     std::vector<uint32_t> sources = border_vertices(region, node);
     if (sources.empty()) sources.push_back(graph_.nodes[node].vertex);
     const Surface& surface = pieces_.surfaces[piece];
-    std::vector<double> distance(surface.vertex_count(), std::numeric_limits<double>::infinity());
-    using Item = std::pair<double, uint32_t>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-    for (const uint32_t v : sources) {
-      distance[pieces_.local[v]] = 0;
-      queue.push({0.0, pieces_.local[v]});
-    }
-    while (!queue.empty()) {
-      const auto [d, v] = queue.top();
-      queue.pop();
-      if (d > distance[v]) continue;
-      for (const uint32_t e : surface.vertex_edges[v]) {
-        const uint32_t w = surface.opposite(e, v);
-        const double through = d + surface.edge_length(e);
-        if (labels_[pieces_.original[piece][w]] != region || through >= distance[w]) continue;
-        distance[w] = through;
-        queue.push({through, w});
-      }
-    }
-    return distance;
+    for (uint32_t& v : sources) v = pieces_.local[v];
+    return edge_paths(surface, sources, [&](uint32_t w, double) {
+      return labels_[pieces_.original[piece][w]] == region;
+    });
   }
 
   const Graph& graph_;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <queue>
 #include <utility>
 
+#include "segmentation/edge_paths.h"
 #include "segmentation/union_find.h"
 
 namespace reeb::segmentation {
@@ -204,24 +204,8 @@ double total_area(const Surface& surface) {
 }
 
 std::vector<double> edge_distances(const Surface& surface, uint32_t source, double radius) {
-  std::vector<double> distance(surface.vertex_count(), std::numeric_limits<double>::infinity());
-  using Item = std::pair<double, uint32_t>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  distance[source] = 0;
-  queue.push({0.0, source});
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > distance[v]) continue;
-    for (const uint32_t e : surface.vertex_edges[v]) {
-      const uint32_t w = surface.opposite(e, v);
-      const double through = d + surface.edge_length(e);
-      if (through > radius || through >= distance[w]) continue;
-      distance[w] = through;
-      queue.push({through, w});
-    }
-  }
-  return distance;
+  return edge_paths(surface, {&source, 1},
+                    [radius](uint32_t, double length) { return length <= radius; });
 }
 
 Pieces split_pieces(std::span<const float> positions, std::span<const uint32_t> triangles,
