@@ -184,6 +184,12 @@ void add_coding_options(CLI::App& command, Options& o) {
       ->type_name("N")
       ->group(group);
   command
+      .add_option("--effort", o.encoder.effort,
+                  "1 (quickest) to 9 (smallest): encoding time traded for rate; default 5")
+      ->check(CLI::Range(kLeastEffort, kMostEffort).description(""))
+      ->type_name("N")
+      ->group(group);
+  command
       .add_flag("--reorder", o.encoder.reorder,
                 "Do not keep the vertex order of the input (smaller)")
       ->group(group);

@@ -34,6 +34,9 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
     return Status::invalid("the target must be a number above 0");
   }
   if (options.group_length > kMaxGroupFrames) return Status::invalid("group_length is above 65536");
+  if (options.effort < kLeastEffort || options.effort > kMostEffort) {
+    return Status::invalid("effort is not within 1 to 9");
+  }
   if (options.regions > 1024) return Status::invalid("regions is above 1024");
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     if (Status s = check_shot(sequence.shots[i], i); !s.ok()) return s;

@@ -20,12 +20,17 @@ enum class Target {
   kSize,      ///< bytes of the file, never exceeded
 };
 
+inline constexpr int kLeastEffort = 1;
+inline constexpr int kDefaultEffort = 5;
+inline constexpr int kMostEffort = 9;
+
 struct EncodeOptions {
   Target target = Target::kKg;
   double target_value = 0.05;  ///< > 0; unit as the target says
   uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
   bool reorder = false;        ///< drop the vertex order of the input (saves bits)
   Profile profile = Profile::kMain;
+  int effort = kDefaultEffort;  ///< 1 (quickest) .. 9 (smallest): encoding time traded for rate
   int regions =
       -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, 0 = none
   unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it
