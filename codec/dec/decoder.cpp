@@ -37,6 +37,7 @@ StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
   info.format_version = container.format_version;
   info.frame_rate = container.header.frame_rate;
   info.start_time = container.header.start_time;
+  info.total_frames = container.header.total_frames;
   info.truncated = container.truncated;
   info.file_bytes = file_bytes;
   for (const ReferenceChunk& r : container.references) {

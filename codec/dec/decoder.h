@@ -44,8 +44,9 @@ struct StreamInfo {
   uint32_t format_version = 0;
   double frame_rate = 0;
   double start_time = 0;
-  uint32_t frame_count = 0;  ///< frames that can be decoded (fewer than coded when truncated)
-  bool truncated = false;    ///< the stream ends early; whole groups before the cut are here
+  uint32_t frame_count = 0;   ///< frames that can be decoded (fewer than coded when truncated)
+  uint32_t total_frames = 0;  ///< frames that were coded, lost ones included
+  bool truncated = false;     ///< the stream ends early; whole groups before the cut are here
   std::vector<ShotInfo> shots;
   std::vector<Group> groups;
   std::vector<Section> sections;

@@ -1,0 +1,147 @@
+"""entropy.md: range decoder, adaptive bits, integers, mixed bits."""
+import math
+
+from .arithmetic import clamp
+from .errors import require
+
+EVEN = 32768
+
+
+class RangeDecoder:
+    """Section 1."""
+
+    def __init__(self, data):
+        self.data = data
+        self.position = 0
+        self.code = 0
+        self.range = 0xFFFFFFFF
+        for _ in range(4):
+            self.code = self.code * 256 + self.next_byte()
+
+    def next_byte(self):
+        self.position += 1
+        return self.data[self.position - 1] if self.position <= len(self.data) else 0
+
+    def decode(self, p1):
+        bound = (self.range * p1) >> 16
+        if self.code < bound:
+            bit = 1
+            self.range = bound
+        else:
+            bit = 0
+            self.code -= bound
+            self.range -= bound
+        while self.range < 1 << 24:
+            self.code = (self.code * 256 + self.next_byte()) % (1 << 32)
+            self.range *= 256
+        return bit
+
+    def decode_bits(self, count):
+        v = 0
+        for _ in range(count):
+            v = 2 * v + self.decode(EVEN)
+        return v
+
+    def check(self):
+        """Called wherever a section may be refused, and at its end."""
+        require(self.position <= len(self.data) + 4, "a section is read past its end")
+
+
+class AdaptiveBit:
+    """Section 2."""
+    __slots__ = ("p", "n")
+
+    def __init__(self):
+        self.p = 1 << 21
+        self.n = 0
+
+    def p1(self):
+        return clamp(self.p >> 6, 32, 65504)
+
+    def update(self, bit, limit):
+        target = (1 << 22) - 1 if bit else 0
+        rate = (1 << 17) // (2 * self.n + 3)
+        self.p += ((target - self.p) * rate) >> 16
+        if self.n < limit:
+            self.n += 1
+
+    def decode(self, decoder, limit=255):
+        bit = decoder.decode(self.p1())
+        self.update(bit, limit)
+        return bit
+
+
+def adaptive_bits(count):
+    return [AdaptiveBit() for _ in range(count)]
+
+
+class ExpGolomb:
+    """Section 3."""
+
+    def __init__(self):
+        self.length = adaptive_bits(30)
+        self.top = [adaptive_bits(4) for _ in range(31)]
+
+    def decode(self, decoder):
+        n = 0
+        while n < 30 and self.length[n].decode(decoder):
+            n += 1
+        v = 1
+        for i in range(1, n + 1):
+            bit = self.top[n][v].decode(decoder) if i <= 2 else decoder.decode(EVEN)
+            v = 2 * v + bit
+        return v - 1
+
+
+class SignedInteger:
+    """Section 3."""
+
+    def __init__(self):
+        self.size = ExpGolomb()
+        self.negative = AdaptiveBit()
+
+    def decode(self, decoder):
+        size = self.size.decode(decoder)
+        return -size if size != 0 and self.negative.decode(decoder) else size
+
+
+def squash(x):
+    """Section 4."""
+    return clamp(math.floor(65536 / (1 + math.exp(-x / 256)) + 0.5), 1, 65535)
+
+
+SQUASH = {x: squash(x) for x in range(-3072, 3073)}
+
+
+def make_stretch():
+    entries = []
+    x = -2047
+    for i in range(4096):
+        while x < 2047 and SQUASH[x] < 16 * i + 8:
+            x += 1
+        entries.append(x)
+    return entries
+
+
+STRETCH = make_stretch()
+
+
+class Mixer:
+    """Section 4. table_sizes: entries of each of the eight tables."""
+
+    def __init__(self, table_sizes, sets):
+        self.table = [adaptive_bits(size) for size in table_sizes]
+        self.weight = [[9011] * 8 for _ in range(sets)]
+
+    def decode(self, decoder, entries, s):
+        weight = self.weight[s]
+        bits = [self.table[i][entries[i]] for i in range(8)]
+        inputs = [STRETCH[bit.p1() >> 4] for bit in bits]
+        dot = sum(weight[i] * inputs[i] for i in range(8))
+        mixed = SQUASH[clamp(dot >> 16, -3072, 3072)]
+        bit = decoder.decode(mixed)
+        error = (65535 if bit else 0) - mixed
+        for i in range(8):
+            weight[i] += (inputs[i] * error + 32768) >> 16
+            bits[i].update(bit, 100)
+        return bit

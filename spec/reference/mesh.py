@@ -1,0 +1,187 @@
+"""reference_mesh.md: the coded mesh, sections 1 and 3 to 6."""
+import os
+import subprocess
+import tempfile
+from dataclasses import dataclass
+
+from .bytes import Reader
+from .connectivity import NONE, after, find_twins, join_triangles
+from .container import read_mesh_header
+from .entropy import EVEN, AdaptiveBit, ExpGolomb, RangeDecoder, SignedInteger
+from .errors import Corrupt, Truncated, require
+from .guesses import Guess, GuessMixture
+from .order import decode_order
+from .points import GRID_SIZE, PointDecoder
+
+DRACO_FRONT = bytes.fromhex("44 52 41 43 4F 02 02 01 01 00 00")
+DRACO_BACK = bytes.fromhex("01 FF 00 01 01 00 05 03 00 00 01 FE 01 01 03 01 01 40 01 00")
+
+
+@dataclass
+class Mesh:
+    grid: list  # grid position of each coding vertex
+    triangles: list  # three coding vertices each, flat; none with two equal corners
+    output: list  # output index of each coding vertex
+    faces: list  # output indices of the corners of each face
+
+
+def decode_draco(section, most, command):
+    """Section 1: (number of points, triangles as a flat list of points)."""
+    if not section:
+        return 0, []
+    check_draco_counts(section, most)
+    with tempfile.NamedTemporaryFile(suffix=".drc", delete=False) as file:
+        file.write(DRACO_FRONT + section + DRACO_BACK)
+    try:
+        run = subprocess.run(command + [file.name], capture_output=True, text=True)
+    finally:
+        os.unlink(file.name)
+    require(run.returncode == 0, "Draco refuses the connectivity")
+    numbers = [int(word) for word in run.stdout.split()]
+    return numbers[0], numbers[1:]
+
+
+def check_draco_counts(section, most):
+    reader = Reader(section)
+    try:
+        traversal = reader.u8("traversal", 0, 2)
+        vertices, triangles = reader.uv(), reader.uv()
+        reader.u8("attribute tables", 0, 0)
+        symbols, splits = reader.uv(), reader.uv()
+    except Truncated:
+        raise Corrupt("the section draco ends early")
+    require(traversal != 1, "unknown traversal")
+    require(0 < vertices <= 3 * triangles and triangles <= most, "Draco's counts are impossible")
+    require(symbols <= triangles and splits <= symbols, "Draco's counts are impossible")
+
+
+class Rest:
+    """The section *rest*, section 2 of the chapter."""
+
+    def __init__(self, data, header, point_count, triangles):
+        self.decoder = RangeDecoder(data)
+        self.header = header
+        self.triangles = triangles
+        self.twins = find_twins(triangles)
+        self.point_position = PointDecoder(self.decoder, point_count, triangles).decode_all()
+        self.grid = []
+        self.vertex_of_point = []
+        self.decode_split_points()
+        self.inside = [0] * len(triangles)
+        self.decode_polygons()
+        self.polygons = join_triangles(triangles, self.twins, self.inside)
+        require(self.polygons is not None, "polygons overlap themselves")
+        self.decode_loose_vertices()
+        self.listed = []
+        self.decode_listed_faces()
+        self.decoder.check()
+
+    def decode_split_points(self):
+        """Section 3."""
+        same = [AdaptiveBit(), AdaptiveBit()]
+        which = ExpGolomb()
+        at = {}  # vertices by position, oldest first
+        for position in self.point_position:
+            here = at.setdefault(position, [])
+            if here and same[min(len(here), 2) - 1].decode(self.decoder):
+                back = which.decode(self.decoder)
+                require(back < len(here), "a split point joins no vertex")
+                self.vertex_of_point.append(here[-1 - back])
+                continue
+            require(len(self.grid) < self.header.vertex_count, "more points than vertices")
+            self.decoder.check()
+            here.append(len(self.grid))
+            self.vertex_of_point.append(len(self.grid))
+            self.grid.append(position)
+
+    def decode_polygons(self):
+        """Section 4."""
+        if not self.decoder.decode(EVEN):
+            return
+        decided = [0] * (len(self.triangles) // 3)
+        marked = list(decided)
+        models = {}
+
+        def state(t):
+            return min(decided[t], 2) * 3 + min(marked[t], 2)
+
+        for h in range(len(self.triangles)):
+            twin = self.twins[h]
+            if twin == NONE:
+                decided[h // 3] += 1
+            elif twin > h:
+                a, b = h // 3, twin // 3
+                context = (state(a), state(b), self.longest(h) + self.longest(twin))
+                bit = models.setdefault(context, AdaptiveBit()).decode(self.decoder)
+                self.inside[h] = self.inside[twin] = bit
+                for t in (a, b):
+                    decided[t] += 1
+                    marked[t] += bit
+                self.decoder.check()
+
+    def longest(self, h):
+        """1 where half-edge h is a longest side of its triangle."""
+        def length2(g):
+            p, q = (self.point_position[self.triangles[e]] for e in (g, after(g)))
+            return sum((p[i] - q[i]) ** 2 for i in range(3))
+
+        own = length2(h)
+        return 1 if own >= length2(after(h)) and own >= length2(after(after(h))) else 0
+
+    def decode_loose_vertices(self):
+        """Section 5."""
+        mixture = GuessMixture(9, 256)
+        x1, x2, t = [0] * 3, [0] * 3, [0] * 3
+        while len(self.grid) < self.header.vertex_count:
+            position = []
+            for axis in range(3):
+                places = (256 * x1[axis] + 128, 256 * (2 * x1[axis] - x2[axis]) + 128, 256 * x2[axis] + 128)
+                guesses = [Guess(3 * axis + i, place, 128 + 8 * t[axis]) for i, place in enumerate(places)]
+                x = mixture.decode(self.decoder, guesses, GRID_SIZE, x1[axis], 1 + t[axis] // 16)
+                t[axis] = t[axis] + abs(x - x1[axis]) - t[axis] // 16
+                x2[axis], x1[axis] = x1[axis], x
+                position.append(x)
+            self.decoder.check()
+            self.grid.append(tuple(position))
+
+    def decode_listed_faces(self):
+        """Section 6."""
+        require(self.header.face_count >= len(self.polygons), "fewer faces than polygons")
+        size, step = ExpGolomb(), SignedInteger()
+        corner = 0
+        for _ in range(self.header.face_count - len(self.polygons)):
+            face = []
+            for _ in range(size.decode(self.decoder) + 1):
+                corner += step.decode(self.decoder)
+                require(0 <= corner < self.header.vertex_count, "a listed face has no such vertex")
+                self.decoder.check()
+                face.append(corner)
+            self.listed.append(face)
+
+
+def decode_mesh(data, draco_command):
+    """A coded mesh."""
+    reader = Reader(data)
+    try:
+        header = read_mesh_header(reader)
+        draco, rest, order = (reader.take(n) for n in (header.draco_bytes, header.rest_bytes, header.order_bytes))
+    except Truncated:
+        raise Corrupt("the mesh's sections do not fit")
+    require(reader.remaining() == 0, "sections do not fill the mesh")
+    most = 512 * len(data)
+    require(max(header.vertex_count, header.face_count) <= most, "more vertices or faces than the bytes can hold")
+    point_count, triangles = decode_draco(draco, most, draco_command)
+    parts = Rest(rest, header, point_count, triangles)
+    vertex = parts.vertex_of_point
+    coding_triangles = [[vertex[p] for p in triangles[i:i + 3]] for i in range(0, len(triangles), 3)]
+    for face in parts.listed:
+        coding_triangles += [[face[0], face[i], face[i + 1]] for i in range(1, len(face) - 1)]
+    flat = [v for t in coding_triangles if len(set(t)) == 3 for v in t]
+    if header.flags & 1:
+        output = decode_order(order, header.vertex_count, flat)
+    else:
+        require(not order, "an order where none is kept")
+        output = list(range(header.vertex_count))
+    faces = [[output[vertex[p]] for p in polygon] for polygon in parts.polygons]
+    faces += [[output[v] for v in face] for face in parts.listed]
+    return Mesh(parts.grid, flat, output, faces)

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Reference decoder of the Reeb format: slow, plain, in the order of the specification.
+
+    reference_decoder.py --draco COMMAND STREAM [OUT]
+
+Written from the chapters beside it, not from the product's sources; it needs Python 3.7 and nothing else, but for COMMAND,
+which decodes the Draco file that reference_mesh.md section 1 puts together: `COMMAND FILE` prints the number of points,
+then the three points of every triangle. (conformance/draco_triangles.cpp is such a program.)
+
+Frames are written to OUT in the form of conformance/README.md; without OUT, their hashes are printed, one line a frame.
+The exit code is that of the result, conformance/README.md.
+"""
+import argparse
+import hashlib
+import shlex
+import struct
+import sys
+
+from reference.container import read_file
+from reference.errors import Refused
+from reference.group import Decoder
+
+EXIT_CODES = {"ok": 0, "corrupt": 3, "truncated": 4, "unsupported": 5, "limit exceeded": 6}
+
+
+def pack_positions(positions):
+    return b"".join(struct.pack("<3f", *p) for p in positions)
+
+
+def pack_connectivity(vertex_count, faces):
+    sizes = [len(face) for face in faces]
+    corners = [corner for face in faces for corner in face]
+    numbers = [vertex_count, len(sizes), len(corners)] + sizes + corners
+    return struct.pack("<%dI" % len(numbers), *numbers)
+
+
+def write_frame(out, t, connectivity, positions):
+    if out is not None:
+        out.write(struct.pack("<I", t) + connectivity + positions)
+    else:
+        print(t, hashlib.sha256(positions).hexdigest(), hashlib.sha256(connectivity).hexdigest(), flush=True)
+
+
+def decode_frames(file, draco_command, out):
+    """Writes every frame that decodes; the result of the first that does not, or of the file."""
+    decoder = Decoder(file, draco_command)
+    result = "truncated" if file.truncated else "ok"
+    lost = set()  # groups that do not decode
+    for t in range(file.total_frames):
+        group = next((g.first_frame for g in file.groups if g.first_frame <= t < g.first_frame + g.frame_count), t)
+        if group in lost:
+            continue
+        try:
+            positions, faces = decoder.frame(t)
+        except Refused as fault:
+            lost.add(group)
+            report(fault)
+            result = fault.name if result == "ok" else result
+            continue
+        write_frame(out, t, pack_connectivity(len(positions), faces), pack_positions(positions))
+    return result
+
+
+def report(fault):
+    print("%s: %s" % (fault.name, fault), file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Decodes a .reeb stream by the specification, slowly.")
+    parser.add_argument("--draco", required=True, metavar="COMMAND", help="prints points and triangles of a Draco file")
+    parser.add_argument("stream")
+    parser.add_argument("out", nargs="?", help="frames in the form of conformance/README.md")
+    arguments = parser.parse_args()
+    with open(arguments.stream, "rb") as file:
+        data = file.read()
+    out = open(arguments.out, "wb") if arguments.out else None
+    try:
+        result = decode_frames(read_file(data), shlex.split(arguments.draco), out)
+    except Refused as fault:
+        report(fault)
+        result = fault.name
+    if out is not None:
+        out.close()
+    return EXIT_CODES[result]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
