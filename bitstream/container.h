@@ -16,6 +16,11 @@
 
 namespace reeb {
 
+/// What follows the header of a group, in this order.
+struct GroupSections {
+  std::span<const uint8_t> motion, coefficients, basis, corrections;
+};
+
 /// Appends a file to a byte vector, chunk by chunk: `begin`, optionally `metadata`, for each shot
 /// its `reference` and its groups in order of frames, `finish`. A field out of range is an invalid
 /// argument.
@@ -30,8 +35,7 @@ class ContainerWriter {
   /// `mesh`: bytes that start with a MeshHeader, as `encode_reference` makes them.
   Status reference(const ReferenceHeader& header, std::span<const uint8_t> mesh);
   /// The section lengths of `header` are taken from the spans.
-  Status group(const GroupHeader& header, std::span<const uint8_t> motion,
-               std::span<const uint8_t> coefficients, std::span<const uint8_t> basis);
+  Status group(const GroupHeader& header, const GroupSections& sections);
   Status finish();
 
  private:
@@ -49,9 +53,8 @@ struct ReferenceChunk {
   uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
 };
 
-struct GroupChunk {
+struct GroupChunk : GroupSections {
   GroupHeader header;
-  std::span<const uint8_t> motion, coefficients, basis;
   uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
 };
 

@@ -276,6 +276,7 @@ Status Parser::take_group(const Chunk& chunk) {
   g.motion = in.take(g.header.motion_bytes);
   g.coefficients = in.take(g.header.coefficient_bytes);
   g.basis = in.take(g.header.basis_bytes);
+  g.corrections = in.take(g.header.correction_bytes);
   if (!in.ok() || in.remaining() != 0) return corrupt(chunk, "sections do not fill the chunk");
   if (Status s = check_group(chunk, g.header); !s.ok()) return s;
   out_.groups.push_back(g);
@@ -284,7 +285,9 @@ Status Parser::take_group(const Chunk& chunk) {
   count("motion", g.motion.size());
   count("coefficients", g.coefficients.size());
   count("basis", g.basis.size());
-  count("group headers", chunk.size - g.motion.size() - g.coefficients.size() - g.basis.size());
+  count("corrections", g.corrections.size());
+  count("group headers", chunk.size - g.motion.size() - g.coefficients.size() - g.basis.size() -
+                             g.corrections.size());
   return {};
 }
 

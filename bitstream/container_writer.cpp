@@ -36,17 +36,18 @@ Status ContainerWriter::reference(const ReferenceHeader& header, std::span<const
   return {};
 }
 
-Status ContainerWriter::group(const GroupHeader& header, std::span<const uint8_t> motion,
-                              std::span<const uint8_t> coefficients,
-                              std::span<const uint8_t> basis) {
+Status ContainerWriter::group(const GroupHeader& header, const GroupSections& sections) {
   GroupHeader sized = header;
-  sized.motion_bytes = motion.size();
-  sized.coefficient_bytes = coefficients.size();
-  sized.basis_bytes = basis.size();
+  sized.motion_bytes = sections.motion.size();
+  sized.coefficient_bytes = sections.coefficients.size();
+  sized.basis_bytes = sections.basis.size();
+  sized.correction_bytes = sections.corrections.size();
   std::vector<uint8_t> front;
   if (Status s = write_header(sized, "GRUP", front); !s.ok()) return s;
   const uint64_t offset = out_.size();
-  append_chunk(out_, kGroupChunk, front, std::array{motion, coefficients, basis});
+  append_chunk(
+      out_, kGroupChunk, front,
+      std::array{sections.motion, sections.coefficients, sections.basis, sections.corrections});
   note_chunk(offset, header.frame_count);
   return {};
 }

@@ -86,7 +86,8 @@ enum class Profile : uint8_t {
 
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
 struct GroupHeader {
-  uint32_t first_frame = 0;  ///< in the sequence
+  static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
+  uint32_t first_frame = 0;                 ///< in the sequence
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;
@@ -94,10 +95,13 @@ struct GroupHeader {
   float quantization_step = 1;     ///< world units
   float axis_step[3] = {1, 1, 1};  ///< thesis profile: of each coordinate, world units
   uint32_t region_count = 0;       ///< regions of the affine motion model; 0 where it is not used
-  uint8_t flags = 0;               ///< reserved
+  uint8_t flags = 0;
   uint64_t motion_bytes = 0;
   uint64_t coefficient_bytes = 0;
   uint64_t basis_bytes = 0;
+  double correction_step = 1;     ///< where corrected: world units
+  uint64_t correction_count = 0;  ///< where corrected: coordinates that are
+  uint64_t correction_bytes = 0;
   bool operator==(const GroupHeader&) const = default;
 };
 
@@ -118,10 +122,16 @@ void describe(V& v, GroupHeader& h) {
     v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
   }
   v.uv("region_count", h.region_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, 0);
+  v.flags("flags", h.flags, GroupHeader::kCorrected);
   v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);
+  if ((h.flags & GroupHeader::kCorrected) != 0) {
+    v.f64("correction_step", h.correction_step, std::numeric_limits<double>::min(),
+          std::numeric_limits<float>::max());
+    v.uv("correction_count", h.correction_count, 0, uint64_t{3} * kMaxVertices * kMaxGroupFrames);
+    v.uv("correction_bytes", h.correction_bytes, 0, kMaxUint32);
+  }
 }
 
 /// Chunk `meta`: free key/value pairs, UTF-8.

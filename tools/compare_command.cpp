@@ -173,7 +173,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
             const std::string bad = parse_absolute_or_percent(text, o->error_tolerance.emplace());
             if (!bad.empty()) throw CLI::ValidationError("--max-error", bad);
           },
-          "Displacement of a vertex allowed, > 0, in units of the original, or as E% of the "
+          "Error of a coordinate allowed, > 0, in units of the original, or as E% of the "
           "bounding-box diagonal of its sequence")
       ->type_name("E")
       ->group("Tolerance (exit code 3 beyond)");

@@ -153,7 +153,7 @@ void add_target_options(CLI::App& command, Options& o) {
                               const std::string bad = parse_absolute_or_percent(text, o.max_error);
                               if (!bad.empty()) throw CLI::ValidationError("--max-error", bad);
                             },
-                            "Largest displacement of a vertex, > 0, in units of the input, or as "
+                            "Largest error of any coordinate, > 0, in units of the input, or as "
                             "E% of the bounding-box diagonal of the sequence")
                         ->type_name("E"));
   targets.push_back(command.add_option("--bpvf", o.bpvf, "Bits per vertex and frame, > 0")

@@ -17,7 +17,7 @@ namespace {
 struct Sums {
   double error = 0;   ///< sum of squared displacements
   double spread = 0;  ///< sum of squared distances from the mean
-  double max_squared = 0;
+  double max_error = 0;
   uint64_t max_vertex = 0;
   uint64_t vertices = 0;
 };
@@ -44,12 +44,12 @@ Sums frame_sums(std::span<const float> a, std::span<const float> b) {
     for (size_t i = 3 * v; i < 3 * v + 3; ++i) {
       const double d = double{a[i]} - double{b[i]};
       squared += d * d;
+      if (std::abs(d) > sums.max_error) {
+        sums.max_error = std::abs(d);
+        sums.max_vertex = v;
+      }
     }
     sums.error += squared;
-    if (squared > sums.max_squared) {
-      sums.max_squared = squared;
-      sums.max_vertex = v;
-    }
   }
   return sums;
 }
@@ -58,7 +58,7 @@ ErrorFigures figures(const Sums& sums) {
   ErrorFigures out;
   if (sums.error > 0) out.kg = 100 * std::sqrt(sums.error / sums.spread);
   out.rmse = std::sqrt(sums.error / static_cast<double>(sums.vertices));
-  out.max_error = std::sqrt(sums.max_squared);
+  out.max_error = sums.max_error;
   return out;
 }
 
@@ -164,8 +164,8 @@ Status compare_sequences(const Sequence& original, const Sequence& other, Compar
     total.error += sums.error;
     total.spread += sums.spread;
     total.vertices += sums.vertices;
-    if (sums.max_squared > total.max_squared) {
-      total.max_squared = sums.max_squared;
+    if (sums.max_error > total.max_error) {
+      total.max_error = sums.max_error;
       out.max_frame = t;
       out.max_vertex = sums.max_vertex;
     }

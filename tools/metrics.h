@@ -9,22 +9,22 @@
 
 namespace reeb::tools {
 
-/// Error of one frame, or of all. Displacements are Euclidean, in the units of the input.
+/// Error of one frame, or of all, in the units of the input.
 struct ErrorFigures {
   double kg = 0;         ///< Karni-Gotsman error in percent, see `compare_sequences`
   double rmse = 0;       ///< root of the mean squared vertex displacement
-  double max_error = 0;  ///< largest vertex displacement
+  double max_error = 0;  ///< largest error of a coordinate
 };
 
 struct Comparison {
   ErrorFigures overall;
   std::vector<ErrorFigures> frames;
   double diagonal = 0;      ///< of the bounding box of all frames of the original
-  uint64_t max_frame = 0;   ///< frame of the largest displacement, from 0
+  uint64_t max_frame = 0;   ///< frame of the largest error, from 0
   uint64_t max_vertex = 0;  ///< its vertex, from 0
   bool identical = true;    ///< every coordinate has the same bits
 
-  /// The largest displacement by the diagonal; 0 where both are 0.
+  /// The largest error by the diagonal; 0 where both are 0.
   double relative_max_error() const;
 };
 

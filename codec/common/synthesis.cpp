@@ -61,6 +61,7 @@ void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* 
     }
     for (const float*& plane : planes) plane += count;
   }
+  corrections_.apply(t, output, xyz, stride);
 }
 
 double plane_norm(const std::vector<float>& plane) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "codec/common/corrections.h"
 #include "codec/common/field.h"
 #include "codec/common/kernels.h"
 
@@ -25,6 +27,9 @@ class GroupSynthesis {
   GroupSynthesis(std::vector<std::vector<float>> planes, const float axis_step[3],
                  const float origin[3]);
 
+  /// Of as many frames as the group; applied to every frame from now on.
+  void set_corrections(Corrections corrections) { corrections_ = std::move(corrections); }
+
   uint32_t frame_count() const { return static_cast<uint32_t>(mean_.size() / 3); }
   /// False where basis or mean trajectory is beyond binary32 or binary64: no position is defined.
   bool finite() const;
@@ -33,8 +38,8 @@ class GroupSynthesis {
   const float* basis(size_t row) const { return basis_.data() + row * planes_.size(); }
 
   /// x(v, t) = round(mean(t) + sum_k basis_k(t) plane_k(v)): the sum in binary32 in the order of k,
-  /// the last addition in binary64, rounded once to binary32. Row r is written to xyz + output[r] *
-  /// stride.
+  /// the last addition in binary64, rounded once to binary32, then corrected. Row r is written to
+  /// xyz + output[r] * stride.
   void frame(uint32_t t, std::span<const uint32_t> output, float* xyz, size_t stride) const;
 
  private:
@@ -49,6 +54,7 @@ class GroupSynthesis {
   std::vector<float> basis_;  ///< [time][axis][component]; [axis] in the thesis profile
   bool direct_ = false;       ///< planes are coordinates: the thesis profile
   std::vector<double> mean_;
+  Corrections corrections_;
   Kernels kernels_ = fastest_kernels();
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bitstream/container.h"
+#include "codec/common/correction_field.h"
 #include "codec/common/motion_model.h"
 #include "codec/common/parallel.h"
 #include "codec/dec/group_decoder.h"
@@ -25,7 +26,11 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
   const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 12 * (components + 1));
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
                                         uint64_t{h.region_count} * sizeof(MotionModel::Transform));
-  return surface + basis + motion;
+  const bool corrected = h.correction_count > 0;
+  const uint64_t corrections = corrected ? CorrectionField::memory(vertices, h.frame_count) +
+                                               2 * Corrections::kEntryBytes * h.correction_count
+                                         : 0;
+  return surface + basis + motion + corrections;
 }
 
 uint64_t connectivity_memory(const Connectivity& c) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "codec/common/correction_field.h"
 #include "codec/common/field.h"
 #include "codec/common/motion_syntax.h"
 
@@ -79,6 +80,26 @@ Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
   return {};
 }
 
+Status decode_corrections(const GroupChunk& chunk, const DecodedSurface& surface,
+                          GroupSynthesis& out) {
+  const GroupHeader& h = chunk.header;
+  if (h.correction_count == 0) return {};
+  Corrections corrections(h.frame_count, h.correction_step);
+  CorrectionField field(surface.surface.graph, h.frame_count);
+  BinaryDecoder decoder(chunk.corrections);
+  uint64_t count = 0;
+  const bool in_range = field.code(
+      decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
+      [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
+        corrections.add(row, t, axis, c);
+        return ++count <= h.correction_count && !decoder.overrun();
+      });
+  if (!in_range || count != h.correction_count || decoder.overrun())
+    return Status::corrupt("the correction section is damaged");
+  out.set_corrections(std::move(corrections));
+  return {};
+}
+
 }  // namespace
 
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
@@ -93,6 +114,7 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   } else if (Status s = decode_basis(chunk, surface, std::move(planes), out); !s.ok()) {
     return s;
   }
+  if (Status s = decode_corrections(chunk, surface, out); !s.ok()) return s;
   return out.finite() ? Status() : Status::corrupt("the group's basis is out of range");
 }
 

@@ -15,7 +15,7 @@ namespace reeb {
 /// What the encoder aims at. Exactly one target per encoding.
 enum class Target {
   kKg,        ///< KG error in percent, of the whole sequence
-  kMaxError,  ///< largest vertex displacement, in units of the input, measured on the result
+  kMaxError,  ///< largest error of any coordinate, in units of the input, never exceeded
   kBpvf,      ///< bits per vertex and frame, the whole file counted
   kSize,      ///< bytes of the file, never exceeded
 };
@@ -48,7 +48,7 @@ struct EncodeStats {
   double bpvf = 0;       ///< 8 * bytes / sum over shots of (vertices * frames)
   double kg = 0;         ///< percent
   double rmse = 0;       ///< per vertex, units of the input
-  double max_error = 0;  ///< largest vertex displacement, units of the input
+  double max_error = 0;  ///< largest error of a coordinate, units of the input
   std::vector<Section> sections;
   std::vector<std::string> notes;  ///< e.g. where a new reference starts
 };

@@ -4,11 +4,13 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "codec/common/prediction_graph.h"
 #include "codec/common/synthesis.h"
+#include "codec/enc/correction_encoder.h"
 #include "codec/enc/group_signal.h"
 #include "codec/enc/motion_fit.h"
 #include "codec/enc/surface_context.h"
@@ -24,7 +26,8 @@ struct CodedGroup {
   std::vector<uint8_t> motion;
   std::vector<uint8_t> coefficients;
   std::vector<uint8_t> basis;
-  GroupSynthesis synthesis;  ///< what the decoder will have
+  std::optional<CodedCorrections> corrections;  ///< where there are any
+  GroupSynthesis synthesis;                     ///< what the decoder will have
   double squared_error =
       0;  ///< over all vertices, frames and axes, but for the rounding to binary32
 };

@@ -20,6 +20,9 @@ constexpr double kRoughTolerance = 0.05;
 constexpr double kTolerance = 0.008;
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
+constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
+constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corrections
+constexpr int kBaseTrials = 7;
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -67,8 +70,7 @@ double SequenceEncoder::excess_of(const Attempt& a) const {
       measured = kg_of(exact_ ? measure(a).squared : a.squared_error);
       break;
     case Target::kMaxError:
-      measured = measure(a).largest;
-      break;
+      return 0;  // whatever the step
     case Target::kBpvf:
       measured = 8 * static_cast<double>(a.bytes.size()) / vertex_frames_;
       break;
@@ -128,6 +130,28 @@ Status SequenceEncoder::search(double tolerance, int max_trials) {
   return {};
 }
 
+// The reconstruction underneath may be rough, since corrections bound the error whatever it is: the
+// best one makes the smallest file.
+Status SequenceEncoder::search_base() {
+  Attempt first;
+  if (Status s = attempt(best_.q, first); !s.ok()) return s;
+  const double rms = std::sqrt(first.squared_error / (3 * vertex_frames_));
+  const double wanted = options_.target_value / kBoundPerError;
+  const double scale = rms > 0 ? std::clamp(wanted / rms, 0.1, 10.0) : 1.0;
+  const double q0 = std::max(best_.q * scale, least_step());
+  best_ = std::move(first);
+  Status status;
+  search_least(q0, kBaseRatio, kBaseTrials, [&](double q) {
+    Attempt a;
+    if (status.ok()) status = attempt(q, a);
+    if (!status.ok()) return 0.0;
+    const auto size = static_cast<double>(a.bytes.size());
+    if (a.bytes.size() < best_.bytes.size()) best_ = std::move(a);
+    return size;
+  });
+  return status;
+}
+
 double SequenceEncoder::least_step() const {
   double largest = 0;
   for (const auto& shot : shots_) largest = std::max(largest, shot->largest_coefficient());
@@ -153,8 +177,8 @@ Status SequenceEncoder::try_setting(bool& kept) {
   Attempt a;
   if (Status s = attempt(best_.q, a); !s.ok()) return s;
   const double slope = slope_ > 0 ? slope_ : 0.1 * best_.q * best_.q;
-  const auto cost = [slope](const Attempt& x) {
-    return x.squared_error + slope * 8 * static_cast<double>(x.bytes.size());
+  const auto cost = [&](const Attempt& x) {
+    return (bounded() ? 0 : x.squared_error) + slope * 8 * static_cast<double>(x.bytes.size());
   };
   kept = cost(a) < cost(best_);
   if (kept) best_ = std::move(a);
@@ -234,7 +258,7 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   const double extent = std::sqrt(energy_ / std::max(1.0, 3 * vertex_frames_));
   double expected = kGuessedPrecision * extent;
   if (options_.target == Target::kKg) expected = options_.target_value / 100 * extent;
-  if (options_.target == Target::kMaxError) expected = options_.target_value / 8;
+  if (bounded()) expected = options_.target_value / kBoundPerError;
   if (Status s = set_grids(expected); !s.ok()) return s;
   if (options_.regions > 0) set_regions(static_cast<uint32_t>(options_.regions));
   if (options_.regions < 0 && options_.profile == Profile::kThesis) {
@@ -245,13 +269,16 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   // all.
   best_.q =
       expected > 0 ? 2 * expected * std::sqrt(static_cast<double>(sequence_.frame_count())) : 1e-6;
-  if (Status s = search(kRoughTolerance, kRoughTrials); !s.ok()) return s;
+  if (Status s = bounded() ? search_base() : search(kRoughTolerance, kRoughTrials); !s.ok())
+    return s;
   if (!is_error(options_.target)) {
     if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
   }
   if (Status s = refine_grids(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;
-  if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
+  if (!bounded()) {
+    if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
+  }
   stats = this->stats();
   if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {
     exact_ = true;  // so little error is asked for that rounding to binary32 counts

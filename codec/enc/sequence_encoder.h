@@ -38,6 +38,9 @@ class SequenceEncoder {
 
   /// Finds the step that meets the target with the current settings; the result is in `best_`.
   Status search(double tolerance, int max_trials);
+  /// Target::kMaxError: finds the step that makes the smallest file.
+  Status search_base();
+  bool bounded() const { return options_.target == Target::kMaxError; }
   Status refine_grids();
   Status choose_regions();
   /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.

@@ -40,7 +40,11 @@ std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
 
 ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
                          unsigned threads)
-    : shot_(shot), first_frame_(first_frame), reorder_(options.reorder), profile_(options.profile) {
+    : shot_(shot),
+      first_frame_(first_frame),
+      reorder_(options.reorder),
+      profile_(options.profile),
+      bound_(options.target == Target::kMaxError ? options.target_value : 0) {
   const std::vector<uint32_t> lengths =
       options.group_length > 0 ? split_by(shot.frame_count, options.group_length)
                                : split_evenly(shot.frame_count, default_group_length(shot));
@@ -131,9 +135,22 @@ void ShotEncoder::fit_motion() {
 
 std::vector<CodedGroup> ShotEncoder::encode(double q) {
   std::vector<CodedGroup> out;
-  for (Group& group : groups_)
+  for (Group& group : groups_) {
     out.push_back(group.encoder->encode(surface_, q, group.motion.get()));
+    if (bound_ > 0) correct(group, out.back());
+  }
   return out;
+}
+
+void ShotEncoder::correct(const Group& group, CodedGroup& coded) const {
+  const size_t frame_size = size_t{surface_.rows()} * 3;
+  const std::span<const float> original =
+      std::span(shot_.positions)
+          .subspan(group.first_frame * frame_size, coded.synthesis.frame_count() * frame_size);
+  CodedCorrections corrections = encode_corrections(coded.synthesis, original, surface_, bound_);
+  if (corrections.count == 0) return;
+  coded.synthesis.set_corrections(std::move(corrections.corrections));
+  coded.corrections = std::move(corrections);
 }
 
 Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& coded,
@@ -152,7 +169,14 @@ Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& co
     header.component_count = coded[i].component_count;
     header.quantization_step = static_cast<float>(coded[i].q);
     header.region_count = coded[i].region_count;
-    Status s = writer.group(header, coded[i].motion, coded[i].coefficients, coded[i].basis);
+    GroupSections sections{coded[i].motion, coded[i].coefficients, coded[i].basis, {}};
+    if (const auto& c = coded[i].corrections; c.has_value()) {
+      header.flags |= GroupHeader::kCorrected;
+      header.correction_step = c->step;
+      header.correction_count = c->count;
+      sections.corrections = c->bytes;
+    }
+    Status s = writer.group(header, sections);
     if (!s.ok()) return s;
   }
   return {};
@@ -170,9 +194,9 @@ ErrorSums ShotEncoder::measure(const std::vector<CodedGroup>& coded) const {
         for (size_t a = 0; a < 3; ++a) {
           const double d = static_cast<double>(frame[v + a]) - static_cast<double>(original[v + a]);
           square += d * d;
+          sums.largest = std::max(sums.largest, std::abs(d));
         }
         sums.squared += square;
-        sums.largest = std::max(sums.largest, std::sqrt(square));
       }
     }
   }

@@ -14,7 +14,7 @@ namespace reeb {
 /// Sums over decoded frames.
 struct ErrorSums {
   double squared = 0;  ///< of the distances of the vertices from where the input has them
-  double largest = 0;  ///< distance
+  double largest = 0;  ///< of a coordinate
 };
 
 class ShotEncoder {
@@ -58,12 +58,14 @@ class ShotEncoder {
     std::unique_ptr<MotionFit> motion;
   };
   void fit_motion();
+  void correct(const Group& group, CodedGroup& coded) const;
   void segment_reference();
 
   const Shot& shot_;
   uint32_t first_frame_;
   bool reorder_;
   Profile profile_;
+  double bound_;  ///< on the error of every coordinate, world units; 0 = none
   uint32_t grid_bits_ = 0;
   uint32_t regions_ = 0;
   SurfaceContext surface_;

@@ -76,4 +76,39 @@ StepTrial search_step(double q0, const StepSearchOptions& options,
   return best;
 }
 
+double search_least(double q0, double ratio, int max_trials,
+                    const std::function<double(double)>& cost) {
+  struct Point {
+    double x, y;
+  };
+  const double stride = std::log(ratio);
+  const auto at = [&](double x) { return Point{x, cost(std::exp(x))}; };
+  Point best = at(std::log(q0));
+  Point left = at(best.x - stride);
+  int trials = 2;
+  const double direction = left.y < best.y ? -1 : 1;
+  Point behind = left;
+  if (direction < 0) {
+    behind = best;
+    best = left;
+  }
+  for (; trials < max_trials; ++trials) {
+    const Point ahead = at(best.x + direction * stride);
+    if (ahead.y < best.y) {
+      behind = best;
+      best = ahead;
+      continue;
+    }
+    // The minimum lies between; a parabola through the three says where.
+    const double bend = behind.y - 2 * best.y + ahead.y;
+    const double shift = bend > 0 ? direction * stride * 0.5 * (behind.y - ahead.y) / bend : 0;
+    if (++trials < max_trials && std::abs(shift) > 0.15 * stride) {
+      const Point last = at(best.x + shift);
+      if (last.y < best.y) best = last;
+    }
+    break;
+  }
+  return std::exp(best.x);
+}
+
 }  // namespace reeb

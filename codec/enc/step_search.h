@@ -25,4 +25,10 @@ struct StepSearchOptions {
 StepTrial search_step(double q0, const StepSearchOptions& options,
                       const std::function<double(double)>& measure);
 
+/// Looks for the q of the least `cost(q)`, taken to have one minimum, from `q0` on, by steps of a
+/// factor `ratio` (> 1) until the minimum is bracketed, then once in between. Returns the best q
+/// tried.
+double search_least(double q0, double ratio, int max_trials,
+                    const std::function<double(double)>& cost);
+
 }  // namespace reeb

@@ -92,7 +92,7 @@ TEST_CASE("the container of a one-group file is small", "[container]") {
   ReferenceHeader reference;
   REQUIRE(writer.begin(header).ok());
   REQUIRE(writer.reference(reference, mesh).ok());
-  REQUIRE(writer.group(group, {}, coefficients, basis).ok());
+  REQUIRE(writer.group(group, {{}, coefficients, basis, {}}).ok());
   REQUIRE(writer.finish().ok());
   Bytes headers;
   REQUIRE(write_header(reference, "REFM", headers).ok());
@@ -196,7 +196,7 @@ TEST_CASE("a whole file with too few frames is corrupt", "[container]") {
   header.total_frames = 3;
   REQUIRE(writer.begin(header).ok());
   REQUIRE(writer.reference({}, coded_mesh(3, 1, 2)).ok());
-  REQUIRE(writer.group(group_header(0, 2, 0), {}, {}, {}).ok());
+  REQUIRE(writer.group(group_header(0, 2, 0), {}).ok());
   REQUIRE(writer.finish().ok());
   CHECK(parse(file).code() == StatusCode::kCorrupt);
 }
@@ -212,5 +212,5 @@ TEST_CASE("the writer refuses fields out of range", "[container]") {
   CHECK(writer.begin(SequenceHeader{}).code() == StatusCode::kInvalidArgument);
   GroupHeader group;
   group.frame_count = 0;
-  CHECK(writer.group(group, {}, {}, {}).code() == StatusCode::kInvalidArgument);
+  CHECK(writer.group(group, {}).code() == StatusCode::kInvalidArgument);
 }

@@ -46,10 +46,10 @@ inline Bytes two_shot_file() {
   REQUIRE(writer.begin(header).ok());
   REQUIRE(writer.metadata({{"name", "walk"}, {"unit", "m"}}).ok());
   REQUIRE(writer.reference(ReferenceHeader{}, coded_mesh(4, 4, 20)).ok());
-  REQUIRE(writer.group(group_header(0, 4, 0), motion, coefficients, basis).ok());
-  REQUIRE(writer.group(group_header(4, 3, 0), {}, coefficients, {}).ok());
+  REQUIRE(writer.group(group_header(0, 4, 0), {motion, coefficients, basis, {}}).ok());
+  REQUIRE(writer.group(group_header(4, 3, 0), {{}, coefficients, {}, {}}).ok());
   REQUIRE(writer.reference(second, coded_mesh(6, 2, 10)).ok());
-  REQUIRE(writer.group(group_header(7, 3, 1), {}, coefficients, basis).ok());
+  REQUIRE(writer.group(group_header(7, 3, 1), {{}, coefficients, basis, {}}).ok());
   REQUIRE(writer.finish().ok());
   return out;
 }

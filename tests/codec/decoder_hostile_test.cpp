@@ -109,7 +109,7 @@ Bytes rewrite(const Bytes& file, const Changes& changes) {
     for (; g < in.groups.size() && in.groups[g].header.shot == shot; ++g) {
       GroupChunk& chunk = in.groups[g];
       changes.group(chunk.header);
-      fine = fine && writer.group(chunk.header, chunk.motion, chunk.coefficients, chunk.basis).ok();
+      fine = fine && writer.group(chunk.header, chunk).ok();
     }
   }
   return fine && writer.finish().ok() ? out : Bytes{};
@@ -220,6 +220,28 @@ TEST_CASE("absurd counts are refused before they are believed", "[hostile]") {
     metered_probe(changed, generous);
     metered_probe(changed, tight_limits());
   }
+}
+
+TEST_CASE("counts of corrections that are not true are refused", "[hostile]") {
+  EncodeOptions options = quick_options();
+  options.target = Target::kMaxError;
+  options.target_value = 1e-3;
+  const Bytes whole = encode_or_fail(sequence_of({animate(torus(12, 8), 6)}), options).bytes;
+  uint64_t count = 0;
+  REQUIRE(
+      probe(rewrite(whole, {.group = [&](auto& h) { count = h.correction_count; }}), tight_limits())
+          .frames == 6);
+  REQUIRE(count > 1);
+  for (const uint64_t other : {count - 1, count + 1, uint64_t{1} << 40}) {
+    const Bytes changed = rewrite(whole, {.group = [&](auto& h) { h.correction_count = other; }});
+    CHECK(metered_probe(changed, tight_limits()).refused == 6);
+  }
+  const auto without = [](auto& h) {
+    h.flags = 0;
+    h.correction_count = 0;
+  };
+  const Bytes changed = rewrite(whole, {.group = without});
+  CHECK(metered_probe(changed, tight_limits()).frames == 0);  // bytes are left over
 }
 
 TEST_CASE("limits are respected", "[hostile]") {

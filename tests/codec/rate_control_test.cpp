@@ -31,12 +31,6 @@ TEST_CASE("a KG error is met within one per cent", "[rate_control]") {
   }
 }
 
-TEST_CASE("a largest error is met", "[rate_control]") {
-  const Sequence sequence = large_sequence();
-  const Encoded out = encode_or_fail(sequence, aim(Target::kMaxError, 0.01));
-  check_met(measure(sequence, decode_or_fail(out.bytes)).largest, 0.01);
-}
-
 TEST_CASE("bits per vertex and frame are met within one per cent", "[rate_control]") {
   const Sequence sequence = large_sequence();
   const Encoded out = encode_or_fail(sequence, aim(Target::kBpvf, 1.0));
@@ -72,10 +66,8 @@ TEST_CASE("less error takes more bytes", "[rate_control]") {
 
 TEST_CASE("targets that nothing meets are refused with the nearest figures", "[rate_control]") {
   const Sequence sequence = sequence_of({animate(torus(16, 11), 5)});
-  for (const auto& [target, value] : {std::pair(Target::kSize, 20.0),
-                                      {Target::kBpvf, 1e-4},
-                                      {Target::kKg, 1e-12},
-                                      {Target::kMaxError, 1e-15}}) {
+  for (const auto& [target, value] :
+       {std::pair(Target::kSize, 20.0), {Target::kBpvf, 1e-4}, {Target::kKg, 1e-12}}) {
     Bytes bytes(3, 7);
     EncodeStats stats;
     const Status status = encode(sequence, aim(target, value), bytes, stats);

@@ -50,11 +50,12 @@ Errors measure(const Sequence& original, const Sequence& decoded) {
       for (size_t v = 0; v < a.size(); v += 3) {
         double square = 0;
         for (size_t j = v; j < v + 3; ++j) {
-          square += std::pow(static_cast<double>(a[j]) - static_cast<double>(b[j]), 2);
+          const double d = static_cast<double>(a[j]) - static_cast<double>(b[j]);
+          square += d * d;
+          largest = std::max(largest, std::abs(d));
           energy += std::pow(static_cast<double>(a[j]) - mean[j % 3], 2);
         }
         squared += square;
-        largest = std::max(largest, std::sqrt(square));
       }
     }
   }

@@ -36,7 +36,7 @@ TEST_CASE("figures by hand") {
   CHECK(c.frames[0].rmse == Approx(std::sqrt(0.25 / 2)));
   CHECK(c.frames[1].rmse == Approx(std::sqrt(1.0 / 2)));
   CHECK(c.overall.rmse == Approx(std::sqrt(1.25 / 4)));
-  CHECK(c.frames[0].max_error == Approx(0.5));
+  CHECK(c.frames[0].max_error == Approx(0.4));
   CHECK(c.overall.max_error == Approx(1));
   CHECK(c.max_frame == 1);
   CHECK(c.max_vertex == 0);

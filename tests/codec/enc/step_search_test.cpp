@@ -76,3 +76,26 @@ TEST_CASE("a target met by everything is met", "[step_search]") {
   CHECK(search_step(1.0, {true, 0.008, 12}, measure).excess == -1000.0);
   CHECK(calls <= 12);
 }
+
+TEST_CASE("the least cost is found from either side", "[step_search]") {
+  for (const double q0 : {0.3, 1.0, 2.0, 3.2, 12.0}) {
+    int calls = 0;
+    const auto cost = [&](double q) {
+      ++calls;
+      return std::pow(std::log(q / 2.0), 2) + 5;
+    };
+    CHECK(search_least(q0, 1.35, 12, cost) == Approx(2.0).epsilon(0.06));
+    CHECK(calls <= 12);
+  }
+}
+
+TEST_CASE("the search for the least cost ends where there is none", "[step_search]") {
+  int calls = 0;
+  const auto falling = [&](double q) {
+    ++calls;
+    return -q;
+  };
+  CHECK(search_least(1.0, 1.5, 6, falling) == Approx(std::pow(1.5, 5)).epsilon(0.5));
+  CHECK(calls <= 6);
+  CHECK(search_least(1.0, 1.5, 6, [](double) { return 1.0; }) > 0);
+}
