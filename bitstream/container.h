@@ -56,6 +56,8 @@ struct ReferenceChunk {
 struct GroupChunk : GroupSections {
   GroupHeader header;
   uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+
+  bool continues() const { return (header.flags & GroupHeader::kContinues) != 0; }
 };
 
 /// A stretch of the file that holds no chunk with a right checksum.

@@ -11,6 +11,7 @@ namespace reeb {
 
 inline constexpr uint8_t kFormatVersion = 1;
 inline constexpr uint32_t kMaxGroupFrames = 65536;
+inline constexpr uint32_t kMostOpenGroups = 63;  ///< in a row, each continuing the one before
 inline constexpr uint32_t kMaxVertices = 1u << 25;
 inline constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 
@@ -86,6 +87,7 @@ enum class Profile : uint8_t {
 
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
 struct GroupHeader {
+  static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
   static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
   uint32_t first_frame = 0;                 ///< in the sequence
   uint32_t frame_count = 1;
@@ -122,7 +124,7 @@ void describe(V& v, GroupHeader& h) {
     v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
   }
   v.uv("region_count", h.region_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, GroupHeader::kCorrected);
+  v.flags("flags", h.flags, GroupHeader::kContinues | GroupHeader::kCorrected);
   v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);

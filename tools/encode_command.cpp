@@ -190,6 +190,14 @@ void add_coding_options(CLI::App& command, Options& o) {
       ->type_name("N")
       ->group(group);
   command
+      .add_option(
+          "--open-groups", o.encoder.open_groups,
+          "Groups in a row, 0 to 63, that may continue the group before: smaller, but a seek "
+          "decodes the whole run; default 0")
+      ->check(CLI::Range(0u, kMostOpenGroups).description(""))
+      ->type_name("N")
+      ->group(group);
+  command
       .add_flag("--reorder", o.encoder.reorder,
                 "Do not keep the vertex order of the input (smaller)")
       ->group(group);

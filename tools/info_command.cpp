@@ -51,7 +51,8 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
                               {"shot", g.shot + 1},
                               {"regions", g.region_count},
                               {"components", g.component_count},
-                              {"bytes", g.bytes}});
+                              {"bytes", g.bytes},
+                              {"continues", g.continues}});
   }
   for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
   for (const auto& [key, value] : info.metadata) json["metadata"][key] = value;
@@ -75,7 +76,8 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
   for (const auto& g : info.groups) {
     out << "  frames " << grouped(g.first_frame + 1) << " to "
         << grouped(g.first_frame + g.frame_count) << ": " << counted(g.component_count, "component")
-        << ", " << counted(g.region_count, "region") << ", " << byte_size(g.bytes) << "\n";
+        << ", " << counted(g.region_count, "region") << ", " << byte_size(g.bytes)
+        << (g.continues ? ", continues the group before" : "") << "\n";
   }
   for (const auto& s : info.sections) out << "  " << s.name << ": " << byte_size(s.bytes) << "\n";
   for (const auto& [key, value] : info.metadata) out << "  " << key << " = " << value << "\n";

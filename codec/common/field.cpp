@@ -8,8 +8,9 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kRunning = 32;             ///< rows over which the running mean fades
-constexpr uint32_t kRecent = 4;               ///< rows over which the recent mean fades
+constexpr uint32_t kRunning = 32;  ///< rows over which the running mean fades
+constexpr uint32_t kRecent = 4;    ///< rows over which the recent mean fades
+constexpr double kFading = 0.5;    ///< of what a group knows about weights, in the next one
 constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
 
 uint32_t level_of(uint32_t row, uint32_t rows) {
@@ -54,6 +55,16 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
   estimator_.observe_reference(points, order);
   estimator_.solve();
+}
+
+std::vector<std::vector<float>> Field::next_group() {
+  if (options_.adaptive) estimator_.solve(kFading);
+  std::vector<std::vector<float>> planes = take_planes();
+  planes_.clear();
+  for (auto* magnitudes : {&last_, &history_, &ring_history_}) {
+    std::fill(magnitudes->begin(), magnitudes->end(), 0);
+  }
+  return planes;
 }
 
 float Field::predict(uint32_t row, const float* plane) const {

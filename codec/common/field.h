@@ -40,6 +40,10 @@ class Field {
   template <class Residual>
   void code_component(Residual&& residual);
 
+  /// Ends a group and starts the next one: weights and contexts stay as learned, planes and
+  /// magnitudes go. Returns the planes.
+  std::vector<std::vector<float>> next_group();
+
   uint32_t component_count() const { return static_cast<uint32_t>(planes_.size()); }
   /// Decoded values of component k, one per row.
   const std::vector<float>& plane(uint32_t k) const { return planes_[k]; }

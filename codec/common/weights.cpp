@@ -28,6 +28,11 @@ void init_lane(WeightBatch& batch, uint32_t lane, uint32_t r, const PredictionGr
   }
 }
 
+void fade(WeightBatch& batch, double factor) {
+  for (Lanes& entry : batch.matrix) entry *= factor;
+  for (Lanes& entry : batch.target) entry *= factor;
+}
+
 }  // namespace
 
 WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptions& options,
@@ -46,6 +51,13 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
 }
 
 WeightEstimator::~WeightEstimator() = default;
+
+WeightEstimator::WeightEstimator(const WeightEstimator& other)
+    : graph_(other.graph_),
+      options_(other.options_),
+      threads_(other.threads_),
+      batches_(std::make_unique<Batches>(*other.batches_)),
+      weights_(other.weights_) {}
 
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
@@ -77,7 +89,7 @@ void WeightEstimator::observe(const float* values, double noise) {
   pending_.push_back({values, 1.0 / noise});
 }
 
-void WeightEstimator::solve() {
+void WeightEstimator::solve(double fading) {
   float dropped[kMaxNeighbours];
   const auto count = static_cast<uint32_t>(batches_->items.size());
   parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
@@ -86,6 +98,7 @@ void WeightEstimator::solve() {
       for (const Observation& o : pending_) {
         batches_->kernels.accumulate(batch, o.values, o.inverse_noise, options_.sum_to_one);
       }
+      if (fading != 1) fade(batch, fading);
       float* out[kLanes];
       for (uint32_t l = 0; l < kLanes; ++l) {
         const uint32_t row = b * kLanes + l;

@@ -26,7 +26,8 @@ class WeightEstimator {
   /// `graph` must outlive the estimator. `threads` >= 1; the weights do not depend on it.
   WeightEstimator(const PredictionGraph& graph, const WeightOptions& options, unsigned threads);
   ~WeightEstimator();
-  WeightEstimator(const WeightEstimator&) = delete;
+  /// Pre-condition of a copy: nothing is observed that is not solved for.
+  WeightEstimator(const WeightEstimator& other);
   WeightEstimator& operator=(const WeightEstimator&) = delete;
 
   /// Learns from the reference positions, taken as exact to half a grid unit and to the surface's
@@ -37,8 +38,9 @@ class WeightEstimator {
   /// variance. The values must stay where they are until the next `solve`.
   void observe(const float* values, double noise);
 
-  /// Brings the weights up to date with all observations.
-  void solve();
+  /// Brings the weights up to date with all observations, which from then on count `fading` times
+  /// as much.
+  void solve(double fading = 1);
 
   /// kMaxNeighbours weights of a row; 0 for padding.
   const float* weights(uint32_t row) const { return &weights_[size_t{row} * kMaxNeighbours]; }

@@ -33,6 +33,20 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
   return surface + basis + motion + corrections;
 }
 
+/// A group that continues one that is damaged, cut off or of another shot is lost with it.
+void drop_broken_runs(std::vector<GroupChunk>& groups) {
+  std::vector<GroupChunk> whole;
+  for (const GroupChunk& g : groups) {
+    if (g.continues()) {
+      if (whole.empty() || whole.back().header.shot != g.header.shot) continue;
+      const GroupHeader& before = whole.back().header;
+      if (before.first_frame + before.frame_count != g.header.first_frame) continue;
+    }
+    whole.push_back(g);
+  }
+  groups = std::move(whole);
+}
+
 uint64_t connectivity_memory(const Connectivity& c) {
   return sizeof(uint32_t) * (c.face_sizes.size() + c.corners.size());
 }
@@ -52,8 +66,8 @@ StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
   }
   for (const GroupChunk& g : container.groups) {
     const GroupHeader& h = g.header;
-    info.groups.push_back(
-        {h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count, g.size});
+    info.groups.push_back({h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count,
+                           g.size, g.continues()});
     if (const ReferenceChunk* r = container.reference(h.shot)) {
       info.shots[static_cast<size_t>(r - container.references.data())].frame_count += h.frame_count;
     }
@@ -76,7 +90,11 @@ struct Decoder::Impl {
   DecodedSurface surface;
   size_t open_group = SIZE_MAX;  ///< group of `synthesis`, always of `surface_shot`
   GroupSynthesis synthesis;
+  GroupState state;  ///< what `state_group` left
+  size_t state_group = SIZE_MAX;
 
+  bool continued(size_t group) const;
+  Status find_start(size_t group, size_t& first) const;
   Status find_group(uint32_t frame, size_t& index) const;
   Status open_shot(uint32_t shot);
   Status open(size_t group);
@@ -112,7 +130,8 @@ Status Decoder::Impl::open_shot(uint32_t shot) {
     return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
   if (Status s = check_memory(chunk->mesh_header.vertex_count * kBytesPerRow); !s.ok()) return s;
   surface_shot = UINT32_MAX;
-  open_group = SIZE_MAX;
+  open_group = state_group = SIZE_MAX;
+  state = {};
   ReferenceMesh mesh;
   if (Status s = decode_reference(chunk->mesh, options.limits, mesh); !s.ok()) return s;
   surface.grid = std::move(mesh.grid);
@@ -126,14 +145,42 @@ Status Decoder::Impl::open_shot(uint32_t shot) {
   return {};
 }
 
+/// True where the next group continues this one.
+bool Decoder::Impl::continued(size_t group) const {
+  return group + 1 < container.groups.size() && container.groups[group + 1].continues();
+}
+
+/// The group that decoding has to start with to have `group`.
+Status Decoder::Impl::find_start(size_t group, size_t& first) const {
+  for (first = group; container.groups[first].continues(); --first) {
+    if (group - first == kMostOpenGroups) {
+      return Status::corrupt("too many groups in a row continue each other");
+    }
+  }
+  if (first <= state_group && state_group < group) first = state_group + 1;
+  return {};
+}
+
 Status Decoder::Impl::open(size_t group) {
   if (group == open_group) return {};
-  const GroupChunk& chunk = container.groups[group];
-  if (Status s = open_shot(chunk.header.shot); !s.ok()) return s;
-  if (Status s = check_memory(group_memory(surface.output.size(), chunk.header)); !s.ok()) return s;
+  if (Status s = open_shot(container.groups[group].header.shot); !s.ok()) return s;
+  size_t first = group;
+  if (Status s = find_start(group, first); !s.ok()) return s;
   open_group = SIZE_MAX;
-  if (Status s = decode_group(chunk, surface, resolve_threads(options.threads), synthesis); !s.ok())
-    return s;
+  for (size_t i = first; i <= group; ++i) {
+    const GroupChunk& chunk = container.groups[i];
+    if (Status s = check_memory(group_memory(surface.output.size(), chunk.header)); !s.ok())
+      return s;
+    const bool keep = continued(i);
+    state_group = SIZE_MAX;
+    if (Status s =
+            decode_group(chunk, surface, resolve_threads(options.threads), keep, state, synthesis);
+        !s.ok()) {
+      state = {};
+      return s;
+    }
+    if (keep) state_group = i;
+  }
   open_group = group;
   return {};
 }
@@ -146,6 +193,7 @@ Status Decoder::open(std::span<const uint8_t> bytes, const DecodeOptions& option
   auto impl = std::make_unique<Impl>();
   impl->options = options;
   if (Status s = impl->container.parse(bytes, options.limits); !s.ok()) return s;
+  drop_broken_runs(impl->container.groups);
   impl->info = make_info(impl->container, bytes.size());
   decoder.reset(new Decoder(std::move(impl)));
   return {};

@@ -33,6 +33,7 @@ struct StreamInfo {
     uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
     uint32_t component_count = 0;  ///< temporal components
     uint64_t bytes = 0;
+    bool continues = false;  ///< decodes only after the group before
   };
   struct ShotInfo {
     uint32_t first_frame = 0;
@@ -71,7 +72,8 @@ class Decoder {
   Status connectivity(uint32_t frame, const Connectivity*& out);
 
   /// Writes vertex v's xyz to `xyz + v * stride`, `stride` in floats (>= 3). Any order of frames;
-  /// costs at most one group, nothing but a small product when the group is the one decoded last.
+  /// costs at most one group and those that it continues, nothing but a small product when the
+  /// group is the one decoded last.
   Status decode_frame(uint32_t frame, float* xyz, size_t stride = 3);
 
  private:

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "codec/common/correction_field.h"
-#include "codec/common/field.h"
 #include "codec/common/motion_syntax.h"
 
 namespace reeb {
@@ -33,6 +32,9 @@ Status check_header(const GroupHeader& h) {
   if (h.region_count > MotionModel::kMaxRegions) {
     return Status::corrupt("region_count is out of range");
   }
+  if (thesis && (h.flags & GroupHeader::kContinues) != 0) {
+    return Status::corrupt("a group of the thesis profile continues another");
+  }
   if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
     return Status::corrupt("a section is there that the group does not use");
   }
@@ -51,29 +53,29 @@ Status decode_motion(const GroupChunk& chunk, const DecodedSurface& surface, Mot
   return {};
 }
 
-Status decode_coefficients(const GroupChunk& chunk, const DecodedSurface& surface,
-                           const MotionModel& motion, unsigned threads,
-                           std::vector<std::vector<float>>& planes) {
-  Field field(surface.surface.graph, surface_field_options(chunk.header.profile), threads);
-  field.learn_reference(GridPoints(surface.grid), surface.surface.order);
-  BinaryDecoder decoder(chunk.coefficients);
-  for (uint32_t k = 0; k < chunk.header.component_count; ++k) {
-    if (!decode_component(field, decoder))
-      return Status::corrupt("the coefficient section is damaged");
+/// Leaves in `state` what the group starts from.
+Status start_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
+                   GroupState& state) {
+  const Profile profile = chunk.header.profile;
+  if (!chunk.continues()) {
+    state = start_closed_group(surface.surface, GridPoints(surface.grid), profile, threads);
+    return {};
   }
-  planes = field.take_planes();
-  if (motion.regions() > 0) add_motion(motion, planes);
-  return {};
+  if (state.coefficients != nullptr && state.profile == profile) return {};
+  return Status::corrupt("a group continues one that is not there or of another profile");
 }
 
 Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
-                    std::vector<std::vector<float>> planes, GroupSynthesis& out) {
+                    std::vector<std::vector<float>> planes, GroupState& state,
+                    GroupSynthesis& out) {
   const TemporalGraph temporal = build_temporal_graph(chunk.header.frame_count);
   Field basis(temporal.graph, basis_field_options(), 1);
+  std::swap(basis.model(), state.basis_contexts);
   BinaryDecoder decoder(chunk.basis);
   for (uint32_t k = 0; k <= chunk.header.component_count; ++k) {
     if (!decode_component(basis, decoder)) return Status::corrupt("the basis section is damaged");
   }
+  std::swap(basis.model(), state.basis_contexts);
   const double q = static_cast<double>(chunk.header.quantization_step);
   out = synthesize(surface.surface.graph.size(), std::move(planes), basis, temporal.order, q,
                    surface.origin);
@@ -102,19 +104,34 @@ Status decode_corrections(const GroupChunk& chunk, const DecodedSurface& surface
 
 }  // namespace
 
+bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field) {
+  BinaryDecoder decoder(bytes);
+  for (uint32_t k = 0; k < count; ++k) {
+    if (!decode_component(field, decoder)) return false;
+  }
+  return true;
+}
+
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
-                    GroupSynthesis& out) {
-  if (Status s = check_header(chunk.header); !s.ok()) return s;
+                    bool keep, GroupState& state, GroupSynthesis& out) {
+  const GroupHeader& header = chunk.header;
+  if (Status s = check_header(header); !s.ok()) return s;
+  if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
   MotionModel motion;
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
-  std::vector<std::vector<float>> planes;
-  if (Status s = decode_coefficients(chunk, surface, motion, threads, planes); !s.ok()) return s;
-  if (chunk.header.profile == Profile::kThesis) {
-    out = GroupSynthesis(std::move(planes), chunk.header.axis_step, surface.origin);
-  } else if (Status s = decode_basis(chunk, surface, std::move(planes), out); !s.ok()) {
+  if (!decode_coefficients(chunk.coefficients, header.component_count, *state.coefficients)) {
+    return Status::corrupt("the coefficient section is damaged");
+  }
+  std::vector<std::vector<float>> planes =
+      keep ? state.coefficients->next_group() : state.coefficients->take_planes();
+  if (motion.regions() > 0) add_motion(motion, planes);
+  if (header.profile == Profile::kThesis) {
+    out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);
+  } else if (Status s = decode_basis(chunk, surface, std::move(planes), state, out); !s.ok()) {
     return s;
   }
   if (Status s = decode_corrections(chunk, surface, out); !s.ok()) return s;
+  if (!keep) state = {};
   return out.finite() ? Status() : Status::corrupt("the group's basis is out of range");
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bitstream/container.h"
 #include "bitstream/status.h"
+#include "codec/common/group_state.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/synthesis.h"
 
@@ -19,7 +21,12 @@ struct DecodedSurface {
   float origin[3] = {0, 0, 0};   ///< of the grid, world units
 };
 
+/// Decodes `count` components of the coefficient section; false where it is damaged.
+bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field);
+
+/// Decodes a group. One that continues another needs the state which that one left; with `keep`,
+/// `state` is then what this group leaves, otherwise it is used up.
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
-                    GroupSynthesis& out);
+                    bool keep, GroupState& state, GroupSynthesis& out);
 
 }  // namespace reeb

@@ -37,6 +37,7 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   if (options.effort < kLeastEffort || options.effort > kMostEffort) {
     return Status::invalid("effort is not within 1 to 9");
   }
+  if (options.open_groups > kMostOpenGroups) return Status::invalid("open_groups is above 63");
   if (options.regions > 1024) return Status::invalid("regions is above 1024");
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     if (Status s = check_shot(sequence.shots[i], i); !s.ok()) return s;

@@ -10,6 +10,7 @@
 
 #include "codec/common/prediction_graph.h"
 #include "codec/common/synthesis.h"
+#include "codec/dec/group_decoder.h"
 #include "codec/enc/correction_encoder.h"
 #include "codec/enc/group_signal.h"
 #include "codec/enc/motion_fit.h"
@@ -32,6 +33,13 @@ struct CodedGroup {
       0;  ///< over all vertices, frames and axes, but for the rounding to binary32
 };
 
+/// Where a group stands among groups that continue each other.
+struct GroupRun {
+  GroupState state;        ///< what the group before left; replaced by what this one leaves
+  bool continues = false;  ///< this group starts from `state`
+  bool continued = false;  ///< the next one will
+};
+
 /// Encodes one group at a given quantization step.
 class GroupEncoder {
  public:
@@ -41,7 +49,8 @@ class GroupEncoder {
   GroupEncoder& operator=(const GroupEncoder&) = delete;
 
   /// Encodes on a reference mesh with quantization step q > 0, world units. `motion` may be null.
-  virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion) = 0;
+  virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
+                            GroupRun& run) = 0;
 
   /// What the motion model is to predict: V x K, world units, rows as the surface graph.
   virtual Eigen::MatrixXf motion_targets(const SurfaceContext& surface) = 0;

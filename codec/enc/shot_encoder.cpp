@@ -44,7 +44,8 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
       first_frame_(first_frame),
       reorder_(options.reorder),
       profile_(options.profile),
-      bound_(options.target == Target::kMaxError ? options.target_value : 0) {
+      bound_(options.target == Target::kMaxError ? options.target_value : 0),
+      open_groups_(options.open_groups) {
   const std::vector<uint32_t> lengths =
       options.group_length > 0 ? split_by(shot.frame_count, options.group_length)
                                : split_evenly(shot.frame_count, default_group_length(shot));
@@ -135,9 +136,12 @@ void ShotEncoder::fit_motion() {
 
 std::vector<CodedGroup> ShotEncoder::encode(double q) {
   std::vector<CodedGroup> out;
-  for (Group& group : groups_) {
-    out.push_back(group.encoder->encode(surface_, q, group.motion.get()));
-    if (bound_ > 0) correct(group, out.back());
+  GroupRun run;
+  for (uint32_t i = 0; i < groups_.size(); ++i) {
+    run.continues = continues(i);
+    run.continued = i + 1 < groups_.size() && continues(i + 1);
+    out.push_back(groups_[i].encoder->encode(surface_, q, groups_[i].motion.get(), run));
+    if (bound_ > 0) correct(groups_[i], out.back());
   }
   return out;
 }
@@ -169,6 +173,7 @@ Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& co
     header.component_count = coded[i].component_count;
     header.quantization_step = static_cast<float>(coded[i].q);
     header.region_count = coded[i].region_count;
+    if (continues(static_cast<uint32_t>(i))) header.flags |= GroupHeader::kContinues;
     GroupSections sections{coded[i].motion, coded[i].coefficients, coded[i].basis, {}};
     if (const auto& c = coded[i].corrections; c.has_value()) {
       header.flags |= GroupHeader::kCorrected;

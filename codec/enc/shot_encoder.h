@@ -57,6 +57,10 @@ class ShotEncoder {
     std::unique_ptr<GroupEncoder> encoder;
     std::unique_ptr<MotionFit> motion;
   };
+  /// True where group i starts from what the one before has learned.
+  bool continues(uint32_t i) const {
+    return profile_ != Profile::kThesis && i % (open_groups_ + 1) != 0;
+  }
   void fit_motion();
   void correct(const Group& group, CodedGroup& coded) const;
   void segment_reference();
@@ -66,6 +70,7 @@ class ShotEncoder {
   bool reorder_;
   Profile profile_;
   double bound_;  ///< on the error of every coordinate, world units; 0 = none
+  uint32_t open_groups_;
   uint32_t grid_bits_ = 0;
   uint32_t regions_ = 0;
   SurfaceContext surface_;

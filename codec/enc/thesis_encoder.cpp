@@ -48,7 +48,8 @@ void ThesisEncoder::choose_steps(const Eigen::MatrixXf& targets, const MotionFit
   }
 }
 
-CodedGroup ThesisEncoder::encode(const SurfaceContext& surface, double q, const MotionFit* motion) {
+CodedGroup ThesisEncoder::encode(const SurfaceContext& surface, double q, const MotionFit* motion,
+                                 GroupRun&) {
   CodedGroup out;
   out.q = static_cast<double>(static_cast<float>(q));
   for (float& step : out.axis_step) step = static_cast<float>(q);

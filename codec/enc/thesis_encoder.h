@@ -12,7 +12,8 @@ class ThesisEncoder : public GroupEncoder {
   ThesisEncoder(GroupSignal signal, unsigned threads)
       : GroupEncoder(std::move(signal)), threads_(threads) {}
 
-  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion) override;
+  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
+                    GroupRun& run) override;
   /// Positions less the origin, column 3 t + axis.
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 

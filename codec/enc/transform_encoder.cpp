@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "codec/enc/basis_refit.h"
@@ -62,16 +63,28 @@ TransformEncoder::TransformEncoder(GroupSignal signal, Profile profile, unsigned
       threads_(threads) {}
 
 CodedGroup TransformEncoder::encode(const SurfaceContext& surface, double q,
-                                    const MotionFit* motion) {
+                                    const MotionFit* motion, GroupRun& run) {
   CodedGroup out;
   out.q = static_cast<double>(static_cast<float>(q));  // as the header keeps it
   std::fill(std::begin(out.axis_step), std::end(out.axis_step), static_cast<float>(q));
-  Planes planes = encode_coefficients(surface, motion, out);
+  GroupState& state = run.state;
+  if (!run.continues) {
+    state = start_closed_group(surface.surface, surface.points(), profile_, threads_);
+  }
+  // Components that are coded and then dropped leave no trace in what the next group continues.
+  std::unique_ptr<Field> copy;
+  if (run.continued) copy = std::make_unique<Field>(*state.coefficients);
+  Planes planes =
+      encode_coefficients(surface, motion, copy != nullptr ? *copy : *state.coefficients, out);
+  if (run.continued) {
+    decode_coefficients(out.coefficients, out.component_count, *state.coefficients);
+    state.coefficients->next_group();
+  }
   if (motion != nullptr) {
     MotionModel model = motion->quantize(out.axis_step, out.component_count);
     encode_motion(surface, model, 0, out, planes);
   }
-  encode_basis(surface, planes, out);
+  encode_basis(surface, planes, state.basis_contexts, out);
   return out;
 }
 
@@ -86,11 +99,9 @@ Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) 
 }
 
 GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext& surface,
-                                                           const MotionFit* motion,
+                                                           const MotionFit* motion, Field& field,
                                                            CodedGroup& out) {
   const PredictionGraph& graph = surface.surface.graph;
-  Field field(graph, surface_field_options(profile_), threads_);
-  field.learn_reference(surface.points(), surface.surface.order);
   FieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent);
   StopRule stop(signal_.frames);
   MotionModel model;
@@ -121,9 +132,10 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
 }
 
 void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes& planes,
-                                    CodedGroup& out) {
+                                    MagnitudeModel& contexts, CodedGroup& out) {
   const BasisRefit refit(signal_, transform_.basis(), planes, surface.row_of, out.q);
   Field field(temporal_.graph, basis_field_options(), threads_);
+  std::swap(field.model(), contexts);
   FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
   std::vector<float> target(temporal_.order.size());
   const double mean_scale = std::sqrt(static_cast<double>(signal_.vertices())) / out.q;
@@ -143,6 +155,7 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
   out.basis = encoder.recorder().encode(encoder.recorder().size());
   out.synthesis =
       synthesize(signal_.vertices(), planes, field, temporal_.order, out.q, surface.header.origin);
+  std::swap(field.model(), contexts);
   out.squared_error = refit.squared_error(out.synthesis);
 }
 

@@ -13,13 +13,15 @@ class TransformEncoder : public GroupEncoder {
  public:
   TransformEncoder(GroupSignal signal, Profile profile, unsigned threads);
 
-  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion) override;
+  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
+                    GroupRun& run) override;
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  private:
-  Planes encode_coefficients(const SurfaceContext& surface, const MotionFit* motion,
+  Planes encode_coefficients(const SurfaceContext& surface, const MotionFit* motion, Field& field,
                              CodedGroup& out);
-  void encode_basis(const SurfaceContext& surface, const Planes& planes, CodedGroup& out);
+  void encode_basis(const SurfaceContext& surface, const Planes& planes, MagnitudeModel& contexts,
+                    CodedGroup& out);
 
   TemporalGraph temporal_;
   KarhunenLoeve transform_;

@@ -34,6 +34,7 @@ Bytes small_stream(Profile profile) {
   options.group_length = 3;
   options.regions = 2;
   options.profile = profile;
+  options.open_groups = 1;
   return encode_or_fail(sequence, options).bytes;
 }
 

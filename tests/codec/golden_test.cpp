@@ -27,7 +27,7 @@ struct Golden {
 };
 
 std::vector<Golden> goldens() {
-  std::vector<Golden> out(5);
+  std::vector<Golden> out(6);
   out[0] = {"main", sequence_of({animate(torus(24, 14), 20)}), quick_options()};
   out[0].options.target_value = 0.05;
   out[0].options.regions = 6;
@@ -47,6 +47,9 @@ std::vector<Golden> goldens() {
   out[4] = {"bounded", sequence_of({animate(torus(18, 12), 10)}), quick_options()};
   out[4].options.target = Target::kMaxError;
   out[4].options.target_value = 1e-3;
+  out[5] = {"open", sequence_of({animate(torus(20, 12), 20)}), quick_options()};
+  out[5].options.group_length = 6;
+  out[5].options.open_groups = 2;
   return out;
 }
 
@@ -95,7 +98,7 @@ TEST_CASE("golden streams decode to the positions they were made with", "[golden
     CHECK(checksum(decode_or_fail(bytes, 3)) == expected);
     ++count;
   }
-  CHECK(count == 5);
+  CHECK(count == 6);
 }
 
 TEST_CASE("golden streams keep the error they were made with", "[golden]") {

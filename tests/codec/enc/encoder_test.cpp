@@ -39,6 +39,9 @@ TEST_CASE("options out of range are refused", "[encoder]") {
   options = quick_options();
   options.regions = 1025;
   check_refused(small(), options);
+  options = quick_options();
+  options.open_groups = 64;
+  check_refused(small(), options);
   for (const int effort : {-1, 0, 10}) {
     options = quick_options();
     options.effort = effort;
