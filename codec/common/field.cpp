@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "codec/common/coding_tools.h"
 #include "codec/common/integer_math.h"
 
 namespace reeb {
@@ -22,7 +23,7 @@ uint32_t level_of(uint32_t row, uint32_t rows) {
 FieldOptions surface_field_options(Profile profile) {
   FieldOptions options;
   options.predict = profile != Profile::kThesis;
-  options.adaptive = profile == Profile::kMain;
+  options.adaptive = profile == Profile::kMain && uses(coding_tool::kReestimation);
   options.noise_share = 2.2;
   options.noise_floor = 0.2;
   options.weights.ring_deviation = 1.4;
@@ -33,6 +34,7 @@ FieldOptions surface_field_options(Profile profile) {
 FieldOptions basis_field_options() {
   FieldOptions options;
   options.weights = {.ring_deviation = 0.5, .extra_deviation = 0.25, .sum_to_one = false};
+  options.adaptive = uses(coding_tool::kBasisLearning);
   options.noise_share = 0.5;
   options.noise_floor = 0.05;
   return options;

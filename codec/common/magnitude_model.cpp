@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "codec/common/coding_tools.h"
 #include "codec/common/integer_math.h"
 
 namespace reeb {
@@ -55,7 +56,9 @@ MagnitudeModel::Context MagnitudeModel::context(const Surroundings& s) {
 MagnitudeModel::Mixer::Prediction MagnitudeModel::predict(const Context& c, uint32_t bin) const {
   std::array<uint32_t, kTables> entries;
   for (int i = 0; i < kTables; ++i) entries[i] = c.base[i] * kBins + bin;
-  return mixer_.predict(entries, bin * kWeightClasses + c.weight_set);
+  Mixer::Prediction made = mixer_.predict(entries, bin * kWeightClasses + c.weight_set);
+  if (!uses(coding_tool::kMixing)) made.p1 = squash(made.input[0]);
+  return made;
 }
 
 }  // namespace reeb

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "codec/common/coding_tools.h"
 #include "codec/common/collapse.h"
 #include "codec/common/nearest.h"
 #include "codec/common/prediction_graph.h"
@@ -132,7 +133,8 @@ class SurfaceGraphBuilder {
     row.prior.fill(0.0f);
     row.precision.fill(1.0f);
     row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
-    row.count = static_cast<uint8_t>(std::min<size_t>(g.size(), kMaxNeighbours));
+    const size_t wanted = uses(coding_tool::kExtraNeighbours) ? g.size() : g.ring.size();
+    row.count = static_cast<uint8_t>(std::min<size_t>(wanted, kMaxNeighbours));
     uint32_t inverse[kMaxNeighbours] = {};
     uint64_t sum = 0;
     for (uint32_t i = 0; i < row.count; ++i) {
@@ -174,6 +176,7 @@ class SurfaceGraphBuilder {
   void assign_steps(PredictionGraph& graph) const {
     std::vector<uint64_t> mass(graph.size(), 256);
     graph.step_level.resize(graph.size());
+    if (!uses(coding_tool::kMassSteps)) return;
     for (uint32_t r = graph.size(); r-- > 0;) {
       const PredictionGraph::Row& row = graph.rows[r];
       for (uint32_t i = 0; i < row.ring; ++i) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "codec/common/coding_tools.h"
 #include "codec/common/prediction_graph.h"
 
 namespace reeb {
@@ -27,6 +28,17 @@ std::vector<Instant> dyadic_order(uint32_t frames) {
       if (t + 3 * h < frames) at.right.push_back(t + 3 * h);
       out.push_back(std::move(at));
     }
+  }
+  return out;
+}
+
+/// One time after another, each predicted from the two before it.
+std::vector<Instant> plain_order(uint32_t frames) {
+  std::vector<Instant> out{{}};
+  for (uint32_t t = 1; t < frames; ++t) {
+    Instant at{t, {t - 1}, {}};
+    if (t >= 2) at.left.push_back(t - 2);
+    out.push_back(std::move(at));
   }
   return out;
 }
@@ -93,7 +105,8 @@ class TemporalGraphBuilder {
 }  // namespace
 
 TemporalGraph build_temporal_graph(uint32_t frames) {
-  return TemporalGraphBuilder(frames).build(dyadic_order(frames));
+  return TemporalGraphBuilder(frames).build(
+      uses(coding_tool::kBasisHierarchy) ? dyadic_order(frames) : plain_order(frames));
 }
 
 }  // namespace reeb

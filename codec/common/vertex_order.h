@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bitstream/status.h"
+#include "codec/common/coding_tools.h"
 #include "codec/common/guess_mixture.h"
 #include "codec/common/half_edge_fans.h"
 #include "codec/common/mesh_state.h"
@@ -79,7 +80,7 @@ Status code_vertex_order(Coder& coder, uint32_t vertex_count, std::span<const ui
   output_index.resize(vertex_count);
   for (uint32_t turn = 0; turn < vertex_count; ++turn) {
     uint32_t& index = output_index[predictor.vertex(turn)];
-    predictor.guess(turn, output_index, free, guesses);
+    if (uses(coding_tool::kOrderGuesses)) predictor.guess(turn, output_index, free, guesses);
     const uint32_t rank = guesses.code(coder, free.rank(index), free.count(),
                                        std::min(predictor.likely(), free.count() - 1), 1);
     if (ran_dry(coder)) return Status::corrupt("mesh: the vertex order is cut off");

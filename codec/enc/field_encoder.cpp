@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/common/coding_tools.h"
+
 namespace reeb {
 
 namespace {
@@ -19,7 +21,7 @@ double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
 
 FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double lambda,
                            double mass_exponent)
-    : field_(field), lambda_(lambda) {
+    : field_(field), lambda_(uses(coding_tool::kRdo) ? lambda : 0) {
   for (const uint8_t level : graph.step_level)
     importance_.push_back(std::exp2(mass_exponent * level / 8.0));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "codec/common/coding_tools.h"
 #include "codec/common/parallel.h"
 #include "codec/enc/step_search.h"
 
@@ -186,6 +187,7 @@ Status SequenceEncoder::try_setting(bool& kept) {
 }
 
 Status SequenceEncoder::refine_grids() {
+  if (!uses(coding_tool::kGridTrial)) return {};
   for (const int direction : {-1, 1}) {
     bool moved = false;
     for (bool kept = true; kept;) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "codec/common/coding_tools.h"
 #include "codec/enc/basis_refit.h"
 #include "codec/enc/field_encoder.h"
 
@@ -134,6 +135,8 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
 void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes& planes,
                                     MagnitudeModel& contexts, CodedGroup& out) {
   const BasisRefit refit(signal_, transform_.basis(), planes, surface.row_of, out.q);
+  const Eigen::MatrixXd& basis =
+      uses(coding_tool::kBasisRefit) ? refit.basis() : transform_.basis();
   Field field(temporal_.graph, basis_field_options(), threads_);
   std::swap(field.model(), contexts);
   FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
@@ -148,7 +151,7 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
   for (uint32_t k = 0; k < planes.size(); ++k) {
     const double norm = plane_norm(planes[k]);
     for (size_t r = 0; r < target.size(); ++r) {
-      target[r] = static_cast<float>(refit.basis()(temporal_.order[r], k) * norm);
+      target[r] = static_cast<float>(basis(temporal_.order[r], k) * norm);
     }
     encoder.code_component(target.data());
   }

@@ -5,7 +5,18 @@ KG_TARGETS = ("1", "0.5", "0.2", "0.1", "0.05", "0.02")
 ABLATION_TARGETS = ("0.5", "0.1", "0.02")
 
 # Coding tools that a build can leave out (codec/common/coding_tools.h), with words for people.
-TOOLS = {}
+TOOLS = {
+    "extra-neighbours": "extra neighbours (ring only)",
+    "re-estimation": "re-estimation of the weights",
+    "mass-steps": "mass-weighted steps and decisions",
+    "rdo": "rate-distortion optimised quantization",
+    "mixing": "context mixing (one table)",
+    "basis-hierarchy": "hierarchy in time (basis in order)",
+    "basis-learning": "learned weights of the basis",
+    "basis-refit": "refit of the basis",
+    "grid-trial": "trial of the grid",
+    "order-guesses": "guesses of the vertex order",
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,7 +28,7 @@ class Configuration:
     unit: str = "kg"  # of the targets
     options: tuple = ()  # of `reeb encode`
     peer: str = ""  # the driver in peers/, where it is not Reeb
-    without: str = ""  # the coding tool that the build leaves out
+    without: str = ""  # the coding tool that a build for it leaves out
 
     @property
     def keeps_order(self):
@@ -57,6 +68,7 @@ ALL = (
       for e in range(1, 10)),
     *(_reeb(f"without-{tool}", f"without {words}", group="ablation", targets=ABLATION_TARGETS, without=tool)
       for tool, words in TOOLS.items()),
+    _reeb("without-motion", "without the motion model", "--regions", "0", group="ablation", targets=ABLATION_TARGETS),
     _reeb("reeb-lossless", "Reeb, lossless", "--lossless", group="lossless", targets=("",), unit="lossless"),
     _peer("pca", "PCA with parallelograms", "kg", KG_TARGETS),
     _peer("draco", "Draco, frame by frame", "bits", map(str, range(7, 15))),

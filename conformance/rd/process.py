@@ -16,10 +16,11 @@ class CommandFailed(Exception):
     """A command that ended with an error; the text is its last line of standard error."""
 
 
-def run(command):
-    """Runs a command (a list of words) to its end; safe in several threads at once."""
+def run(command, **environment):
+    """Runs a command (a list of words) to its end, `environment` added to its own. Several threads may."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
-        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=err)
+        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                 env={**os.environ, **environment})
         _, status, used = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         for stream in (out, err):

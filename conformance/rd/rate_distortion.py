@@ -65,11 +65,11 @@ class Programs:
         return self._hashes[name]
 
 
-def variant(build, without):
-    """Builds Reeb without a coding tool beside `build`; the folder."""
-    folder = f"{os.path.abspath(build)}-without-{without}"
-    process.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DREEB_BUILD_TESTS=OFF",
-                 f"-DREEB_WITHOUT={without}"])
+def build_ablations(build):
+    """Builds, beside `build`, Reeb that can do without a coding tool; the folder."""
+    folder = os.path.abspath(build) + "-ablations"
+    print(f"building {folder}", file=sys.stderr)
+    process.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DREEB_BUILD_TESTS=OFF", "-DREEB_ABLATIONS=ON"])
     process.run(["cmake", "--build", folder, "--target", "reeb", "decode_positions", "measure_error"])
     return folder
 
@@ -100,8 +100,9 @@ def measure(job):
         stream = os.path.join(scratch, job.sequence.name + (".bin" if job.configuration.peer else ".reeb"))
         decoded = os.path.join(scratch, "decoded.raw")
         command = job.configuration.encode_command(programs, job.setting, job.sequence.inputs, stream)
-        encoding = process.run(command)
-        decoding = process.run(job.configuration.decode_command(programs, stream, decoded))
+        without = {"REEB_WITHOUT": job.configuration.without} if job.configuration.without else {}
+        encoding = process.run(command, **without)
+        decoding = process.run(job.configuration.decode_command(programs, stream, decoded), **without)
         if os.path.exists(stream + ".order"):
             shutil.move(stream + ".order", decoded + ".order")
         measured = json.loads(process.run([programs["measure_error"], decoded, *job.sequence.inputs]).output)
@@ -113,7 +114,7 @@ def measure(job):
             "bpvf": 8 * size / (measured["vertices"] * measured["frames"]),
             **{column: measured[column] for column in ("vertices", "frames", "kg", "rmse", "max_error", "sted")},
             "encode_s": encoding.seconds, "decode_s": decoding.seconds, "encode_mb": encoding.megabytes,
-            "decode_mb": decoding.megabytes, "version": job.version, "command": portable(command)}
+            "decode_mb": decoding.megabytes, "version": job.version, "command": " ".join([*(f"{name}={value}" for name, value in without.items()), portable(command)])}
 
 
 def check_report(configuration, reported, measured):
@@ -126,13 +127,12 @@ def check_report(configuration, reported, measured):
 
 def jobs_of(arguments, found):
     """Every line to measure, in the order of the table."""
-    base = Programs(arguments.build)
+    base, ablations = Programs(arguments.build), None
     chosen = []
     for configuration in configurations.select(arguments.configurations):
         programs = base
         if configuration.without:
-            print(f"building without {configuration.without}", file=sys.stderr)
-            programs = Programs(variant(arguments.build, configuration.without))
+            programs = ablations = ablations or Programs(build_ablations(arguments.build))
         lacking = programs.lacking(configuration)
         if lacking:
             print(f"skipped {configuration.name}: there is no {lacking}", file=sys.stderr)
@@ -160,7 +160,7 @@ class Progress:
         self.done += 1
         left = (time.monotonic() - self.start) * (self.total - self.done) / self.done
         name, configuration, target = job.key
-        print(f"[{self.done}/{self.total}, {left / 60:.0f} min left] {name:12} {configuration:16} {target:14} {words}",
+        print(f"[{self.done}/{self.total}, {left / 60:.0f} min left] {name:12} {configuration:24} {target:14} {words}",
               file=sys.stderr, flush=True)
 
 

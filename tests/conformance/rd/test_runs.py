@@ -2,6 +2,7 @@
 import contextlib
 import io
 import os
+import re
 import stat
 import sys
 import tempfile
@@ -204,6 +205,12 @@ class ConfigurationsTest(unittest.TestCase):
         names = [c.name for c in configurations.ALL]
         self.assertEqual(len(names), len(set(names)))
         self.assertFalse(set(names) & ({c.group for c in configurations.ALL} - {"reeb"}))
+
+    def test_coding_tools_are_those_of_the_codec(self):
+        header = os.path.join(CONFORMANCE, "..", "codec", "common", "coding_tools.h")
+        with open(header, encoding="utf-8") as file:
+            names = re.findall(r'constexpr char k\w+\[\] = "([a-z-]+)"', file.read())
+        self.assertEqual(sorted(names), sorted(configurations.TOOLS))
 
     def test_selects_by_name_and_group(self):
         self.assertEqual([c.name for c in configurations.select(["zfp", "pca"])], ["pca", "zfp"])
