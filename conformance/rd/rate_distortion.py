@@ -114,7 +114,8 @@ def measure(job):
             "bpvf": 8 * size / (measured["vertices"] * measured["frames"]),
             **{column: measured[column] for column in ("vertices", "frames", "kg", "rmse", "max_error", "sted")},
             "encode_s": encoding.seconds, "decode_s": decoding.seconds, "encode_mb": encoding.megabytes,
-            "decode_mb": decoding.megabytes, "version": job.version, "command": " ".join([*(f"{name}={value}" for name, value in without.items()), portable(command)])}
+            "decode_mb": decoding.megabytes, "version": job.version,
+            "command": " ".join([*(f"{name}={value}" for name, value in without.items()), portable(command)])}
 
 
 def check_report(configuration, reported, measured):

@@ -113,7 +113,8 @@ TEST_CASE("a cut stream plays to its last whole group, open or not", "[open_grou
   ContainerReader container;
   REQUIRE(container.parse(out.bytes, Limits{}).ok());
   const GroupChunk& last = container.groups[2];
-  const auto decoder = open(Bytes(out.bytes.begin(), out.bytes.begin() + last.offset + last.size));
+  const Bytes cut(out.bytes.begin(), out.bytes.begin() + last.offset + last.size);
+  const auto decoder = open(cut);
   CHECK(decoder->info().frame_count == 15);
   CHECK(matches(*decoder, whole, 14));
 }
