@@ -102,16 +102,14 @@ struct Decoder::Impl {
 };
 
 Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
+  const std::string name = "frame " + std::to_string(frame + 1);
+  if (frame >= container.header.total_frames) return Status::invalid(name + " is past the end");
   const auto& groups = container.groups;
   const auto after =
       std::upper_bound(groups.begin(), groups.end(), frame,
                        [](uint32_t f, const GroupChunk& g) { return f < g.header.first_frame; });
-  if (after == groups.begin())
-    return Status::invalid("frame " + std::to_string(frame + 1) + " is not in the stream");
-  const GroupHeader& h = std::prev(after)->header;
-  if (frame - h.first_frame >= h.frame_count) {
-    const std::string name = "frame " + std::to_string(frame + 1);
-    if (frame >= container.header.total_frames) return Status::invalid(name + " is past the end");
+  if (after == groups.begin() ||
+      frame - std::prev(after)->header.first_frame >= std::prev(after)->header.frame_count) {
     return Status::corrupt(name + " is missing: its group is damaged or cut off");
   }
   index = static_cast<size_t>(std::prev(after) - groups.begin());

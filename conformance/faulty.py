@@ -1,0 +1,367 @@
+"""Streams of class *faulty*: sound ones taken apart, damaged, and put together again."""
+import math
+import pathlib
+import struct
+
+UINT32 = (1 << 32) - 1
+SIGNATURE = b"\x89REEB\r\n\x01"
+
+
+def crc32c(data):
+    crc = UINT32
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc >> 1) ^ (0x82F63B78 if crc & 1 else 0)
+    return crc ^ UINT32
+
+
+def uv(value):
+    out = b""
+    while value > 127:
+        out += bytes([value & 127 | 128])
+        value >>= 7
+    return out + bytes([value])
+
+
+def f64(value):
+    raw = struct.pack(">d", value).rstrip(b"\0")
+    return bytes([len(raw)]) + raw
+
+
+class Fields:
+    """Reads fields of bytes."""
+
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, count):
+        self.at += count
+        return self.data[self.at - count:self.at]
+
+    def uv(self):
+        value = shift = 0
+        while True:
+            byte = self.take(1)[0]
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
+
+    def rest(self):
+        return self.data[self.at:]
+
+
+class Header(dict):
+    """Named fields, packed in the order they were put in. A field of bytes stands for itself."""
+
+    def pack(self):
+        return b"".join(value if isinstance(value, bytes) else uv(value) for value in self.values())
+
+    def but(self, **changes):
+        return Header({**self, **changes})
+
+
+def read_head(payload):
+    f = Fields(payload)
+    return Header(total_frames=f.uv(), shot_count=f.uv(), rates=f.data[f.at:-1], flags=f.data[-1:])
+
+
+def read_reference(payload):
+    """Fields of REFM and of its mesh."""
+    f = Fields(payload)
+    h = Header(shot=f.uv(), first_frame=f.uv(), origin=f.take(12), grid_step=f.take(4), flags=f.take(1),
+               vertex_count=f.uv(), face_count=f.uv(), mesh_flags=f.take(1), draco_bytes=f.uv(), rest_bytes=f.uv(),
+               order_bytes=f.uv())
+    return h.but(draco=f.take(h["draco_bytes"]), rest=f.take(h["rest_bytes"]), order=f.take(h["order_bytes"]))
+
+
+def read_group(payload):
+    f = Fields(payload)
+    h = Header(first_frame=f.uv(), frame_count=f.uv(), shot=f.uv(), profile=f.take(1), component_count=f.uv(),
+               quantization_step=f.take(4))
+    if h["profile"] == b"\2":
+        h["axis_steps"] = f.take(12)
+    h.update(region_count=f.uv(), flags=f.take(1), motion_bytes=f.uv(), coefficient_bytes=f.uv(), basis_bytes=f.uv())
+    return h.but(motion=f.take(h["motion_bytes"]), coefficients=f.take(h["coefficient_bytes"]),
+                 basis=f.take(h["basis_bytes"]))
+
+
+READERS = {b"HEAD": read_head, b"REFM": read_reference, b"GRUP": read_group}
+LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("order", "order_bytes"), ("motion", "motion_bytes"),
+           ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"))
+
+
+class File:
+    """A stream as a list of (type, payload)."""
+
+    def __init__(self, data):
+        self.chunks = []
+        f = Fields(data)
+        f.take(8)
+        kind = b""
+        while kind != b"seek":
+            kind = f.take(4)
+            self.chunks.append((kind, f.take(f.uv())))
+            f.take(4)
+        self.chunks.pop()
+
+    def places(self, kind):
+        return [i for i, chunk in enumerate(self.chunks) if chunk[0] == kind]
+
+    def edited(self, kind, which=0, **changes):
+        """With fields of a chunk changed; lengths follow sections that are."""
+        i = self.places(kind)[which]
+        h = READERS[kind](self.chunks[i][1])
+        for section, length in LENGTHS:
+            if section in changes and length not in changes:
+                changes[length] = len(changes[section])
+        return self.replaced(i, kind, h.but(**changes).pack())
+
+    def replaced(self, i, kind, payload):
+        out = File.__new__(File)
+        out.chunks = list(self.chunks)
+        out.chunks[i] = (kind, payload)
+        return out
+
+    def inserted(self, i, kind, payload):
+        out = File.__new__(File)
+        out.chunks = self.chunks[:i] + [(kind, payload)] + self.chunks[i:]
+        return out
+
+    def without(self, i):
+        out = File.__new__(File)
+        out.chunks = self.chunks[:i] + self.chunks[i + 1:]
+        return out
+
+    def offsets(self):
+        """Where each chunk starts, and where `seek` does."""
+        at = [8]
+        for kind, payload in self.chunks:
+            at.append(at[-1] + len(pack_chunk(kind, payload)))
+        return at
+
+    def pack(self, seek=None):
+        out = SIGNATURE + b"".join(pack_chunk(kind, payload) for kind, payload in self.chunks)
+        table = pack_chunk(b"seek", self.seek_table() if seek is None else seek)
+        return out + table + struct.pack("<I", len(table) + 8) + b"reeb"
+
+    def seek_table(self):
+        entries = b""
+        count = 0
+        end = 0
+        for at, (kind, payload) in zip(self.offsets(), self.chunks):
+            if kind in (b"REFM", b"GRUP"):
+                size = len(pack_chunk(kind, payload))
+                frames = read_group(payload)["frame_count"] if kind == b"GRUP" else 0
+                entries += uv(at - end) + uv(size) + uv(frames)
+                count += 1
+                end = at + size
+        return uv(count) + entries
+
+
+def pack_chunk(kind, payload):
+    return kind + uv(len(payload)) + payload + struct.pack("<I", crc32c(kind + payload))
+
+
+def flipped(data, at):
+    return data[:at] + bytes([data[at] ^ 0x10]) + data[at + 1:]
+
+
+def work(data):
+    """Vertices times planes of a sound stream, about what decoding it costs; 0 of others."""
+    try:
+        file = File(data)
+    except (IndexError, ValueError):
+        return 0
+    total = 0
+    vertices = 0
+    for kind, payload in file.chunks:
+        try:
+            if kind == b"REFM":
+                vertices = read_reference(payload)["vertex_count"]
+                total += 5 * vertices + vertices * vertices // 500
+            elif kind == b"GRUP":
+                h = read_group(payload)
+                total += vertices * h["component_count"] + 3 * h["frame_count"] * (h["component_count"] + 1)
+        except IndexError:
+            return 0
+    return total
+
+
+class Maker:
+    def __init__(self, folder):
+        self.folder = folder
+        self.made = []
+
+    def sound(self, name):
+        for kind in ("core", "uncommon"):
+            path = self.folder / kind / (name + ".reeb")
+            if path.exists():
+                return path.read_bytes()
+        raise KeyError(name)
+
+    def add(self, name, status, sentence, data):
+        folder = self.folder / "faulty"
+        folder.mkdir(exist_ok=True)
+        data = data.pack() if isinstance(data, File) else data
+        (folder / (name + ".reeb")).write_bytes(data)
+        self.made.append(("faulty", name, status, sentence))
+
+
+def add_ends(m):
+    """Files that end early."""
+    data = m.sound("groups")
+    at = File(data).offsets()
+    m.add("empty", "truncated", "No byte at all.", b"")
+    m.add("ends_in_signature", "truncated", "Five bytes.", data[:5])
+    m.add("ends_in_head", "truncated", "The file ends in HEAD.", data[:12])
+    m.add("ends_in_mesh", "truncated", "The file ends in the reference mesh.", data[:at[1] + 20])
+    m.add("ends_in_group", "truncated", "The file ends in the third group; two are whole.", data[:at[5] - 9])
+    m.add("ends_after_group", "truncated", "The file ends behind its second group.", data[:at[4]])
+    m.add("ends_in_table", "truncated", "The file ends in its seek table; all groups are whole.", data[:at[-1] + 9])
+    m.add("no_seek_table", "truncated", "The file ends before its seek table; all groups are whole.", data[:at[-1]])
+    m.add("no_trailer", "truncated", "The trailer is missing.", data[:-8])
+
+
+def add_checksums(m):
+    """A bit flipped in a chunk."""
+    data = m.sound("groups")
+    at = File(data).offsets()
+    m.add("damaged_head", "corrupt", "HEAD has a wrong checksum.", flipped(data, at[0] + 6))
+    m.add("damaged_mesh", "corrupt", "The reference mesh has a wrong checksum.", flipped(data, at[1] + 40))
+    m.add("damaged_group", "corrupt", "The second of four groups has a wrong checksum.", flipped(data, at[3] + 30))
+    m.add("damaged_first_group", "corrupt", "The first group has a wrong checksum.", flipped(data, at[2] + 30))
+    m.add("damaged_last_group", "corrupt", "The last group has a wrong checksum.", flipped(data, at[5] + 30))
+    m.add("damaged_type", "corrupt", "A group's type is no letters; the seek table leads past it.",
+          data[:at[3]] + b"\1\2\3\4" + data[at[3] + 4:])
+    m.add("damaged_length", "corrupt", "A group's length leads astray; the seek table leads back.",
+          data[:at[3] + 4] + b"\xFF\xFF\x7F" + data[at[3] + 7:])
+    m.add("damaged_length_no_table", "truncated", "The same without a seek table: the rest is lost.",
+          (data[:at[3] + 4] + b"\xFF\xFF\x7F" + data[at[3] + 7:])[:at[-1]])
+    m.add("damaged_table", "ok", "The seek table has a wrong checksum; nothing is lost.", flipped(data, at[-1] + 8))
+    m.add("damaged_trailer", "ok", "The trailer leads nowhere; nothing is lost.", data[:-8] + b"\0\0\0\0reeb")
+    shots = m.sound("shots")
+    shot_at = File(shots).offsets()
+    second = File(shots).places(b"REFM")[1]
+    m.add("damaged_shot", "corrupt", "The mesh of the second of three shots is lost, and its group with it.",
+          flipped(shots, shot_at[second] + 30))
+
+
+def add_containers(m):
+    data = m.sound("groups")
+    file = File(data)
+    m.add("wrong_signature", "corrupt", "Line ends were changed on the way.", data.replace(b"\r\n", b"\n", 1))
+    m.add("next_version", "unsupported", "format_version 2.", data[:7] + b"\2" + data[8:])
+    m.add("unknown_critical", "unsupported", "An unknown chunk that may not be skipped.",
+          file.inserted(2, b"Xtra", b"abc"))
+    m.add("second_head", "corrupt", "HEAD twice.", file.inserted(1, *file.chunks[0]))
+    m.add("no_head", "corrupt", "No HEAD.", file.without(0))
+    m.add("no_mesh", "corrupt", "Groups without a reference mesh.", file.without(1))
+    m.add("missing_group", "corrupt", "A gap between groups.", file.without(3))
+    m.add("missing_last_group", "corrupt", "Fewer frames than HEAD announces.", file.without(5))
+    m.add("repeated_group", "corrupt", "A group twice.", file.inserted(3, *file.chunks[2]))
+    m.add("mesh_after_group", "corrupt", "A second reference mesh of the only shot.",
+          file.inserted(3, *file.chunks[1]))
+    m.add("wrong_table", "corrupt", "The seek table has another size of a chunk.",
+          file.pack(file.seek_table()[:-1] + b"\1"))
+    m.add("short_table", "corrupt", "The seek table has no entries.", file.pack(b"\0"))
+    m.add("endless_table", "corrupt", "The seek table announces 2^62 entries.", file.pack(uv(1 << 62)))
+    m.add("long_table", "corrupt", "Bytes behind the seek table's last entry.", file.pack(file.seek_table() + b"\0"))
+    m.add("endless_metadata", "corrupt", "Metadata announces 2^62 entries.", file.inserted(1, b"meta", uv(1 << 62)))
+    m.add("endless_text", "corrupt", "A key of 2^40 bytes.", file.inserted(1, b"meta", b"\1" + uv(1 << 40)))
+
+
+def add_headers(m):
+    file = File(m.sound("groups"))
+    nan, infinite = struct.pack("<f", math.nan), struct.pack("<f", math.inf)
+    for name, sentence, changes in (
+            ("no_frames", "total_frames 0.", dict(total_frames=0)),
+            ("padded_number", "A padded number.", dict(total_frames=b"\x8F\x00")),
+            ("eleven_bytes", "A number of eleven bytes.", dict(total_frames=b"\x8F" * 10 + b"\1")),
+            ("above_64_bits", "A number above 2^64.", dict(total_frames=b"\xFF" * 9 + b"\2")),
+            ("more_shots", "More shots than frames.", dict(shot_count=16)),
+            ("missing_shot", "A shot that does not come.", dict(shot_count=2)),
+            ("head_flags", "A reserved bit of HEAD.", dict(flags=b"\1")),
+            ("negative_rate", "A negative frame rate.", dict(rates=f64(-24.0) + f64(0.0))),
+            ("rate_not_a_number", "A frame rate that is no number.", dict(rates=f64(math.nan) + f64(0.0))),
+            ("padded_real", "A real with a 0 at its end.", dict(rates=b"\3\x40\x38\x00" + f64(0.0))),
+            ("head_too_long", "A byte behind the last field of HEAD.", dict(flags=b"\0\0"))):
+        m.add(name, "corrupt", sentence, file.edited(b"HEAD", **changes))
+    m.add("too_many_frames", "limit exceeded", "2^32 - 1 frames, more than a decoder need allow.",
+          file.edited(b"HEAD", total_frames=UINT32))
+    for name, sentence, changes in (
+            ("origin_infinite", "An infinite origin.", dict(origin=infinite * 3)),
+            ("grid_step_negative", "A negative grid_step.", dict(grid_step=struct.pack("<f", -1))),
+            ("mesh_flags", "A reserved bit of REFM.", dict(flags=b"\x80")),
+            ("coded_mesh_flags", "A reserved bit of the coded mesh.", dict(mesh_flags=b"\x80")),
+            ("no_vertices", "vertex_count 0.", dict(vertex_count=0)),
+            ("vertices_beyond_bytes", "More vertices than the mesh's bytes can hold.", dict(vertex_count=1 << 20)),
+            ("faces_beyond_bytes", "More faces than the mesh's bytes can hold.", dict(face_count=1 << 20)),
+            ("wrong_shot", "A shot that is not announced.", dict(shot=1)),
+            ("late_shot", "A first_frame behind a gap.", dict(first_frame=1))):
+        m.add(name, "corrupt", sentence, file.edited(b"REFM", **changes))
+    m.add("too_many_vertices", "limit exceeded", "2^25 vertices, more than a decoder need allow.",
+          file.edited(b"REFM", vertex_count=1 << 25))
+    m.add("too_many_faces", "limit exceeded", "2^32 - 1 faces, more than a decoder need allow.",
+          file.edited(b"REFM", face_count=UINT32))
+    for name, sentence, changes in (
+            ("no_group_frames", "A group of no frames.", dict(frame_count=0)),
+            ("group_past_end", "A group past the end of the sequence.", dict(frame_count=16)),
+            ("wrong_profile", "An unknown profile.", dict(profile=b"\x7F")),
+            ("step_zero", "quantization_step 0.", dict(quantization_step=bytes(4))),
+            ("step_not_a_number", "A quantization_step that is no number.", dict(quantization_step=nan)),
+            ("group_flags", "A reserved bit of GRUP.", dict(flags=b"\x80")),
+            ("section_too_long", "A section longer than its chunk.", dict(basis_bytes=1 << 20)),
+            ("section_too_short", "Bytes behind the last section.", dict(basis_bytes=1)),
+            ("group_of_other_shot", "A group of a shot that is not there.", dict(shot=3))):
+        m.add(name, "corrupt", sentence, file.edited(b"GRUP", **changes))
+    for name, sentence, changes in (
+            ("too_many_components", "More components than coordinates; the other groups decode.",
+             dict(component_count=13)),
+            ("too_many_regions", "1025 regions; the other groups decode.", dict(region_count=1025)),
+            ("motion_not_used", "A motion section where no region is.", dict(motion=b"\1\2\3"))):
+        m.add(name, "corrupt", sentence, file.edited(b"GRUP", **changes))
+    thesis = File(m.sound("thesis"))
+    m.add("thesis_components", "corrupt", "A thesis group with too few components.",
+          thesis.edited(b"GRUP", component_count=14))
+    m.add("thesis_basis", "corrupt", "A thesis group with a basis.", thesis.edited(b"GRUP", basis=b"\1"))
+
+
+def add_sections(m):
+    """Range codes and meshes that break off or say what cannot be."""
+    file = File(m.sound("groups"))
+    group = read_group(file.chunks[2][1])
+    m.add("short_coefficients", "corrupt", "Half of the first group's coefficients; the other groups decode.",
+          file.edited(b"GRUP", coefficients=group["coefficients"][:len(group["coefficients"]) // 2]))
+    m.add("no_basis", "corrupt", "An empty basis section; the other groups decode.", file.edited(b"GRUP", basis=b""))
+    m.add("basis_out_of_range", "corrupt", "A mean that is infinite; the other groups decode.",
+          file.edited(b"GRUP", basis=bytes(2000), quantization_step=b"\xFF\xFF\x7F\x7F"))
+    mesh = read_reference(file.chunks[1][1])
+    m.add("short_rest", "corrupt", "Half of the section rest.",
+          file.edited(b"REFM", rest=mesh["rest"][:len(mesh["rest"]) // 2]))
+    m.add("short_order", "corrupt", "An empty section order.", file.edited(b"REFM", order=b""))
+    m.add("order_not_used", "corrupt", "A section order where none is kept.", file.edited(b"REFM", mesh_flags=b"\0"))
+    m.add("mesh_not_filled", "corrupt", "Bytes behind the sections of the mesh.",
+          file.edited(b"REFM", order=mesh["order"] + b"\0", order_bytes=len(mesh["order"])))
+    m.add("fewer_vertices", "corrupt", "More points than vertices.", file.edited(b"REFM", vertex_count=20))
+    m.add("fewer_faces", "corrupt", "More polygons than faces.", file.edited(b"REFM", face_count=3))
+    m.add("draco_damaged", "corrupt", "Draco refuses its section.",
+          file.edited(b"REFM", draco=mesh["draco"][:8] + bytes(len(mesh["draco"]) - 8)))
+    m.add("draco_traversal", "corrupt", "An unknown traversal.", file.edited(b"REFM", draco=b"\1" + mesh["draco"][1:]))
+    m.add("draco_counts", "corrupt", "More triangles than the mesh's bytes can hold.",
+          file.edited(b"REFM", draco=mesh["draco"][:1] + uv(1 << 20) + uv(1 << 20) + mesh["draco"][3:]))
+    regions = File(m.sound("main_regions"))
+    m.add("region_out_of_range", "corrupt", "A region that is not there.", regions.edited(b"GRUP", motion=bytes(400)))
+    m.add("no_motion", "corrupt", "An empty motion section.", regions.edited(b"GRUP", motion=b""))
+    listed = File(m.sound("listed_faces"))
+    rest = read_reference(listed.chunks[1][1])["rest"]
+    m.add("corner_out_of_range", "corrupt", "A listed face with a vertex that is not there.",
+          listed.edited(b"REFM", rest=rest[:len(rest) // 3] + bytes(2 * len(rest))))
+
+
+def generate(folder):
+    m = Maker(pathlib.Path(folder))
+    for add in (add_ends, add_checksums, add_containers, add_headers, add_sections):
+        add(m)
+    return m.made

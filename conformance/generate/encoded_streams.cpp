@@ -1,0 +1,160 @@
+// Streams of class *core*: what the encoder makes of small procedural meshes.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "codec/enc/encoder.h"
+#include "conformance/generate/stream.h"
+#include "tests/codec/shapes.h"
+
+namespace reeb::conformance {
+namespace {
+
+using namespace reeb::test;
+
+EncodeOptions at(double kg) {
+  EncodeOptions o;
+  o.target_value = kg;
+  o.threads = 1;
+  o.regions = 0;
+  return o;
+}
+
+EncodeOptions with(EncodeOptions o, Profile profile, int regions = 0, uint32_t group_length = 0) {
+  o.profile = profile;
+  o.regions = regions;
+  o.group_length = group_length;
+  return o;
+}
+
+/// Every vertex goes its own way: as many components as there can be.
+void scatter(const float* rest, double time, double* xyz) {
+  for (int a = 0; a < 3; ++a) {
+    const double phase = 12.9898 * rest[0] + 78.233 * rest[1] + 37.719 * rest[2] + 51.1 * a;
+    xyz[a] =
+        static_cast<double>(rest[a]) +
+        static_cast<double>(static_cast<float>(0.2 * std::sin((90 + 9 * phase) * time + phase)));
+  }
+}
+
+/// Two halves that turn about each other, as regions do.
+void fold(const float* rest, double time, double* xyz) {
+  const double angle = rest[0] > 0 ? 0.8 * time : -0.5 * time;
+  xyz[0] = rest[0];
+  xyz[1] = rest[1] * std::cos(angle) - rest[2] * std::sin(angle);
+  xyz[2] = rest[1] * std::sin(angle) + rest[2] * std::cos(angle);
+}
+
+Shape shuffled(const Shape& shape) {
+  const uint32_t n = shape.connectivity.vertex_count;
+  Shape out = shape;
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t w = static_cast<uint32_t>((uint64_t{v} * 7919 + 13) % n);
+    for (uint32_t a = 0; a < 3; ++a) out.positions[w * 3 + a] = shape.positions[v * 3 + a];
+  }
+  for (uint32_t& v : out.connectivity.corners)
+    v = static_cast<uint32_t>((uint64_t{v} * 7919 + 13) % n);
+  return out;
+}
+
+Shape one_triangle() {
+  Shape s{.name = "triangle", .connectivity = {}, .positions = {}};
+  s.add_vertex(0, 0, 0);
+  s.add_vertex(1, 0, 0);
+  s.add_vertex(0, 1, 0);
+  s.add_face({0, 1, 2});
+  return s;
+}
+
+class Maker {
+ public:
+  void add(const char* name, const char* sentence, const Sequence& sequence,
+           const EncodeOptions& options) {
+    Stream stream{"core", name, sentence, {}};
+    EncodeStats stats;
+    if (const Status s = encode(sequence, options, stream.bytes, stats); !s.ok()) {
+      std::fprintf(stderr, "%s: %s\n", name, s.message().c_str());
+      std::exit(1);
+    }
+    streams.push_back(std::move(stream));
+  }
+  void add(const char* name, const char* sentence, const Shape& shape, uint32_t frames,
+           const EncodeOptions& options, const Motion& motion = bend) {
+    add(name, sentence, sequence_of({animate(shape, frames, motion)}), options);
+  }
+
+  std::vector<Stream> streams;
+};
+
+void add_meshes(Maker& m) {
+  m.add("single_frame", "One frame of a closed mesh.", torus(12, 8), 1, at(0.2));
+  m.add("one_triangle", "One triangle, three frames.", one_triangle(), 3, at(0.2));
+  m.add("one_vertex", "One vertex without a face.", single_vertex(), 4, at(0.2));
+  m.add("points", "No faces at all: every vertex is coded by its nearest.", points_only(90), 5,
+        at(0.5));
+  m.add("isolated", "Vertices without faces between others.", with_isolated(torus(8, 6), 5), 5,
+        at(0.2));
+  m.add("polygons", "Faces of 2 to 6 corners, one of them degenerate.", mixed_polygons(), 6,
+        at(0.2));
+  m.add("quads", "Quadrilaterals, each two of Draco's triangles.", grid(14, 10), 6, at(0.2));
+  m.add("open_strip", "An open strip: every vertex is on the boundary.", strip(40), 6, at(0.2));
+  m.add("seam", "Two sheets along a seam of equal positions, and two equal loose vertices.",
+        with_duplicates(), 4, at(0.2));
+  m.add("fins", "Many triangles at one edge, which Draco splits.", fins(7), 4, at(0.1));
+  m.add("hub", "A vertex with 300 triangles, which no collapse looks at.", hub(300), 3, at(0.3));
+  m.add("components", "Two components far from each other.", two_components(), 5, at(0.2));
+  m.add("order_kept", "Shuffled vertices: the permutation has little to hold on to.",
+        shuffled(torus(16, 11)), 4, at(0.3));
+  EncodeOptions reorder = at(0.3);
+  reorder.reorder = true;
+  m.add("order_dropped", "The same mesh in coding order.", shuffled(torus(16, 11)), 4, reorder);
+  m.add("valence", "More than a thousand triangles: Draco's other traversal.", torus(36, 16), 2,
+        at(0.5));
+}
+
+void add_groups(Maker& m) {
+  Sequence shots = sequence_of(
+      {animate(mixed_polygons(), 6), animate(fins(5), 1), animate(with_duplicates(), 4)});
+  m.add("shots", "Three shots, each with its own connectivity.", shots, at(0.2));
+  m.add("groups", "Four groups, the last one shorter.", torus(10, 8), 15,
+        with(at(0.2), Profile::kMain, 0, 4));
+  m.add("groups_of_one", "Every frame is a group.", torus(8, 6), 4,
+        with(at(0.2), Profile::kMain, 0, 1));
+  m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,
+        at(0.05), rest);
+  m.add("long", "160 frames of few vertices that go their own ways: more than 64 components.",
+        torus(6, 5), 160, at(1), scatter);
+  m.add("fine", "A small error: large residuals.", torus(12, 9), 6, at(0.001));
+  m.add("coarse", "A large error: hardly any residuals.", torus(12, 9), 12, at(3));
+  Sequence named = sequence_of({animate(tetrahedron(), 3)});
+  named.frame_rate = 23.976;
+  named.start_time = -12.5;
+  named.metadata = {{"name", "tetrahedron"}, {"unit", "cm"}, {"", "no key"}, {"empty", ""}};
+  m.add("metadata", "Frame rate, start time and metadata.", named, at(0.2));
+}
+
+void add_profiles(Maker& m) {
+  m.add("main_one_region", "Motion of one region.", torus(14, 10), 8,
+        with(at(0.1), Profile::kMain, 1), fold);
+  m.add("main_regions", "Motion of six regions, blended.", torus(20, 12), 10,
+        with(at(0.1), Profile::kMain, 6), fold);
+  m.add("fast", "Fast profile.", torus(16, 11), 8, with(at(0.1), Profile::kFast));
+  m.add("fast_regions", "Fast profile with regions, two groups, open and loose parts.",
+        with_isolated(grid(16, 12), 4), 12, with(at(0.1), Profile::kFast, 4, 7), fold);
+  m.add("thesis", "Thesis profile.", torus(12, 8), 5, with(at(0.3), Profile::kThesis));
+  m.add("thesis_regions",
+        "Thesis profile with regions: transforms follow those of the frame before.", torus(14, 9),
+        6, with(at(0.3), Profile::kThesis, 4), fold);
+}
+
+}  // namespace
+
+std::vector<Stream> encoded_streams() {
+  Maker m;
+  add_meshes(m);
+  add_groups(m);
+  add_profiles(m);
+  return m.streams;
+}
+
+}  // namespace reeb::conformance

@@ -1,0 +1,151 @@
+#include "conformance/generate/shot_builder.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+#include "bitstream/chunk.h"
+#include "bitstream/syntax.h"
+#include "codec/common/motion_syntax.h"
+#include "codec/common/position_syntax.h"
+#include "codec/common/reference_syntax.h"
+#include "codec/dec/reference_decoder.h"
+#include "codec/enc/reference_encoder.h"
+#include "entropy/range_coder.h"
+
+namespace reeb::conformance {
+namespace {
+
+void require(const Status& status) {
+  if (status.ok()) return;
+  std::fprintf(stderr, "%s\n", status.message().c_str());
+  std::exit(1);
+}
+
+BuiltMesh finish_mesh(Bytes bytes) {
+  ReferenceMesh mesh;
+  require(decode_reference(bytes, {}, mesh));
+  SurfaceGraph surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
+  return {std::move(bytes), std::move(mesh.grid), std::move(surface)};
+}
+
+void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
+                     const Residuals& residuals) {
+  for (uint32_t k = 0; k < count; ++k) {
+    field.code_component([&](uint32_t row, float, uint32_t, MagnitudeModel::Bins& bins) {
+      const int64_t wanted = residuals(k, row);
+      const auto size = static_cast<int64_t>(
+          MagnitudeModel::representable(static_cast<uint64_t>(std::abs(wanted))));
+      return field.model().code(coder, bins, wanted < 0 ? -size : size);
+    });
+  }
+}
+
+Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
+  Field field(mesh.surface.graph, surface_field_options(group.header.profile), 1);
+  field.learn_reference(GridPoints(mesh.grid), mesh.surface.order);
+  BinaryEncoder coder;
+  code_components(field, coder, group.header.component_count, group.coefficients);
+  return coder.finish();
+}
+
+Bytes code_basis(const BuiltGroup& group) {
+  const TemporalGraph temporal = build_temporal_graph(group.header.frame_count);
+  Field field(temporal.graph, basis_field_options(), 1);
+  BinaryEncoder coder;
+  code_components(field, coder, group.header.component_count + 1, group.basis);
+  return coder.finish();
+}
+
+Bytes code_motion(const BuiltMesh& mesh, const BuiltGroup& group) {
+  const GroupHeader& h = group.header;
+  MotionModel motion(h.region_count, h.component_count);
+  for (uint32_t row = 0; row < mesh.rows(); ++row) motion.bindings().push_back(group.binding(row));
+  for (uint32_t k = 0; k < h.component_count; ++k) {
+    for (uint32_t b = 0; b < h.region_count; ++b)
+      motion.transforms(k).push_back(group.transform(k, b));
+  }
+  BinaryEncoder coder;
+  const uint32_t stride = h.profile == Profile::kThesis ? MotionModel::kFrameStride : 0;
+  motion.code(coder, mesh.surface.graph, stride);
+  return coder.finish();
+}
+
+}  // namespace
+
+BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
+                     bool reorder) {
+  Bytes bytes;
+  ReferenceMesh decoded;
+  std::vector<uint32_t> input;
+  require(encode_reference(connectivity, grid, {reorder}, bytes, decoded, input));
+  return finish_mesh(std::move(bytes));
+}
+
+BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid) {
+  MeshState state;
+  state.vertex_count = connectivity.vertex_count;
+  state.face_count = static_cast<uint32_t>(connectivity.face_sizes.size());
+  state.grid.assign(grid.begin(), grid.end());
+  state.listed = {connectivity.face_sizes, connectivity.corners};
+  BinaryEncoder coder;
+  require(code_rest(coder, state, std::numeric_limits<uint64_t>::max()));
+  const Bytes rest = coder.finish();
+  const MeshHeader header = {state.vertex_count, state.face_count, 0, 0, rest.size(), 0};
+  Bytes bytes;
+  require(write_header(header, "mesh header", bytes));
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return finish_mesh(std::move(bytes));
+}
+
+void build_sections(const BuiltMesh& mesh, BuiltGroup& group) {
+  const GroupHeader& h = group.header;
+  if (group.coefficients) group.coefficient_section = code_coefficients(mesh, group);
+  if (group.basis) group.basis_section = code_basis(group);
+  if (group.binding && h.region_count > 0) group.motion_section = code_motion(mesh, group);
+}
+
+FileBuilder::FileBuilder(const SequenceHeader& header) { require(writer_.begin(header)); }
+
+void FileBuilder::reference(const ReferenceHeader& header, const BuiltMesh& mesh) {
+  require(writer_.reference(header, mesh.bytes));
+}
+
+void FileBuilder::group(const BuiltMesh& mesh, BuiltGroup group) {
+  build_sections(mesh, group);
+  require(writer_.group(group.header, group.motion_section, group.coefficient_section,
+                        group.basis_section));
+}
+
+void FileBuilder::metadata(const std::vector<MetadataEntry>& entries) {
+  require(writer_.metadata(entries));
+}
+
+void FileBuilder::chunk(const char* type, const Bytes& payload) {
+  ChunkType letters;
+  std::copy_n(type, letters.size(), letters.begin());
+  append_chunk(bytes_, letters, payload);
+}
+
+Bytes FileBuilder::finish() {
+  require(writer_.finish());
+  return bytes_;
+}
+
+Bytes build_file(const BuiltMesh& mesh, const BuiltGroup& group) {
+  FileBuilder file({.total_frames = group.header.frame_count});
+  file.reference({}, mesh);
+  file.group(mesh, group);
+  return file.finish();
+}
+
+Bytes random_bytes(uint32_t seed, size_t count) {
+  std::mt19937 random(seed);
+  Bytes out(count);
+  for (uint8_t& b : out) b = static_cast<uint8_t>(random() >> 24);
+  return out;
+}
+
+}  // namespace reeb::conformance
