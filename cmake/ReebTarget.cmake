@@ -5,6 +5,10 @@ add_library(reeb_rules INTERFACE)
 target_compile_features(reeb_rules INTERFACE cxx_std_20)
 target_compile_options(reeb_rules INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                                             -ffp-contract=off -fno-fast-math)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i[3-6]86)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+  # The x87 unit keeps more bits than binary32 and binary64 have.
+  target_compile_options(reeb_rules INTERFACE -msse2 -mfpmath=sse)
+endif()
 if(REEB_WERROR)
   target_compile_options(reeb_rules INTERFACE -Werror)
 endif()

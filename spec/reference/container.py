@@ -7,7 +7,8 @@ from .errors import Corrupt, LimitExceeded, Truncated, Unsupported, require
 
 SIGNATURE = b"\x89REEB\r\n"
 UINT32 = (1 << 32) - 1
-MAIN, FAST, THESIS = 0, 1, 2
+MAIN, FAST, THESIS, LOSSLESS = 0, 1, 2, 3
+CORRECTED = 2  # bit of a group's flags
 
 # README.md section 5: what this decoder allows.
 MAX_FRAMES = 1 << 20
@@ -87,6 +88,9 @@ class Group:
     motion: bytes = b""
     coefficients: bytes = b""
     basis: bytes = b""
+    correction_step: float = 1.0
+    correction_count: int = 0
+    corrections: bytes = b""
 
 
 @dataclass
@@ -137,17 +141,28 @@ def read_group(payload):
     first_frame = reader.uv("first_frame", 0, UINT32)
     frame_count = reader.uv("frame_count", 1, 65536)
     shot = reader.uv("shot", 0, UINT32)
-    profile = reader.u8("profile", 0, 2)
+    profile = reader.u8("profile", 0, 3)
     component_count = reader.uv("component_count", 0, 3 * 65536)
-    step = reader.f32("quantization_step", LEAST_F32, LARGEST_F32)
+    lossless = profile == LOSSLESS
+    step = 1.0 if lossless else reader.f32("quantization_step", LEAST_F32, LARGEST_F32)
     axis_step = (1.0, 1.0, 1.0)
     if profile == THESIS:
         axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
-    region_count = reader.uv("region_count", 0, UINT32)
-    flags = reader.flags("flags", 0)
+    region_count = 0 if lossless else reader.uv("region_count", 0, UINT32)
+    flags = reader.flags("flags", 0 if lossless else CORRECTED)
     group = Group(first_frame, frame_count, shot, profile, component_count, step, axis_step, region_count, flags)
-    lengths = [reader.uv("section length", 0, UINT32) for _ in range(3)]
-    group.motion, group.coefficients, group.basis = (reader.take(length) for length in lengths)
+    motion_bytes = 0 if lossless else reader.uv("motion_bytes", 0, UINT32)
+    coefficient_bytes = reader.uv("coefficient_bytes", 0, UINT32)
+    basis_bytes = reader.uv("basis_bytes", 0, UINT32)
+    correction_bytes = 0
+    if flags & CORRECTED:
+        group.correction_step = reader.f64("correction_step", 2.0 ** -1022, LARGEST_F32)
+        group.correction_count = reader.uv("correction_count", 0, 3 * (1 << 25) * 65536)
+        correction_bytes = reader.uv("correction_bytes", 0, UINT32)
+    group.motion = reader.take(motion_bytes)
+    group.coefficients = reader.take(coefficient_bytes)
+    group.basis = reader.take(basis_bytes)
+    group.corrections = reader.take(correction_bytes)
     require(reader.remaining() == 0, "GRUP: sections do not fill the chunk")
     return group
 

@@ -127,21 +127,23 @@ STRETCH = make_stretch()
 
 
 class Mixer:
-    """Section 4. table_sizes: entries of each of the eight tables."""
+    """Section 4. table_sizes: entries of each table."""
 
-    def __init__(self, table_sizes, sets):
+    def __init__(self, table_sizes, sets, limit):
+        count = len(table_sizes)
         self.table = [adaptive_bits(size) for size in table_sizes]
-        self.weight = [[9011] * 8 for _ in range(sets)]
+        self.weight = [[72089 // count] * count for _ in range(sets)]
+        self.limit = limit
 
     def decode(self, decoder, entries, s):
         weight = self.weight[s]
-        bits = [self.table[i][entries[i]] for i in range(8)]
+        bits = [table[e] for table, e in zip(self.table, entries)]
         inputs = [STRETCH[bit.p1() >> 4] for bit in bits]
-        dot = sum(weight[i] * inputs[i] for i in range(8))
+        dot = sum(w * x for w, x in zip(weight, inputs))
         mixed = SQUASH[clamp(dot >> 16, -3072, 3072)]
         bit = decoder.decode(mixed)
         error = (65535 if bit else 0) - mixed
-        for i in range(8):
-            weight[i] += (inputs[i] * error + 32768) >> 16
-            bits[i].update(bit, 100)
+        for i, x in enumerate(inputs):
+            weight[i] += (x * error + 32768) >> 16
+            bits[i].update(bit, self.limit)
         return bit

@@ -76,7 +76,7 @@ class ResidualDecoder:
 
     def __init__(self, data):
         self.decoder = RangeDecoder(data)
-        self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS * 6)
+        self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS * 6, 100)
         self.escape = [adaptive_bits(55) for _ in range(8)]
 
     def decode(self, contexts):

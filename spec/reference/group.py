@@ -1,8 +1,10 @@
 """README.md section 3: decoding of shots, groups and frames."""
 from .arithmetic import sum32
-from .container import THESIS
+from .container import LOSSLESS, THESIS
+from .corrections import Corrections
 from .errors import Corrupt, require
 from .fields import BASIS, COEFFICIENTS, decode_field
+from .lossless import LosslessGroup
 from .mesh import decode_mesh
 from .motion import Motion
 from .surface import build_surface_graph
@@ -14,7 +16,7 @@ class Shot:
     """Step 2."""
 
     def __init__(self, reference, draco_command):
-        self.origin = reference.origin
+        self.reference = reference
         mesh = decode_mesh(reference.mesh, draco_command)
         self.faces = mesh.faces
         self.rows, order = build_surface_graph(mesh.grid, mesh.triangles)
@@ -26,16 +28,22 @@ def check_group(group):
     """container.md 3.3."""
     coordinates = 3 * group.frame_count
     thesis = group.profile == THESIS
-    fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
+    if group.profile == LOSSLESS:
+        fits = 1 <= group.component_count <= group.frame_count
+    else:
+        fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
-    require(not (group.region_count == 0 and group.motion) and not (thesis and group.basis),
-            "a section is there that the group does not use")
+    unused = (group.region_count == 0 and group.motion) or (thesis and group.basis) or \
+        (group.correction_count == 0 and group.corrections)
+    require(not unused, "a section is there that the group does not use")
 
 
 def decode_group(group, shot):
     """Step 3; what it returns gives position(row, t)."""
     check_group(group)
+    if group.profile == LOSSLESS:
+        return LosslessGroup(group, shot.rows, shot.positions, shot.reference)
     thesis = group.profile == THESIS
     motion = None
     if group.region_count > 0:
@@ -45,11 +53,13 @@ def decode_group(group, shot):
     if motion is not None:
         for k, plane in enumerate(planes):
             planes[k] = [sum32(x, motion.motion(r, k)) for r, x in enumerate(plane)]
+    corrections = Corrections(group, shot.rows)
     if thesis:
-        return ThesisSynthesis(planes, group.axis_step, shot.origin)
+        return ThesisSynthesis(planes, group.axis_step, shot.reference.origin, corrections)
     time_rows, time_order = build_temporal_graph(group.frame_count)
     basis = decode_field(group.basis, time_rows, 1 + group.component_count, BASIS)
-    return Synthesis(len(shot.rows), planes, basis, time_order, group.quantization_step, shot.origin)
+    return Synthesis(len(shot.rows), planes, basis, time_order, group.quantization_step, shot.reference.origin,
+                     corrections)
 
 
 class Decoder:

@@ -8,8 +8,9 @@ from .errors import require
 class Synthesis:
     """Main and fast profile, section 1."""
 
-    def __init__(self, vertex_count, planes, basis_planes, time_order, step, origin):
+    def __init__(self, vertex_count, planes, basis_planes, time_order, step, origin, corrections):
         self.planes = planes
+        self.corrections = corrections
         self.mean = [0.0] * len(time_order)
         self.basis = [[0.0] * len(planes) for _ in time_order]
         mean_scale = step / math.sqrt(vertex_count)
@@ -34,15 +35,17 @@ class Synthesis:
             for k, plane in enumerate(self.planes):
                 total = sum32(total, product32(self.basis[c][k], plane[row]))
             position.append(f32(self.mean[c] + total))
-        return position
+        return self.corrections.apply(position, row, t)
 
 
 class ThesisSynthesis:
     """Section 2."""
 
-    def __init__(self, planes, axis_step, origin):
+    def __init__(self, planes, axis_step, origin, corrections):
         self.planes, self.axis_step, self.origin = planes, axis_step, origin
+        self.corrections = corrections
 
     def position(self, row, t):
         planes = self.planes[3 * t:3 * t + 3]
-        return [f32(self.origin[a] + product32(self.axis_step[a], planes[a][row])) for a in range(3)]
+        position = [f32(self.origin[a] + product32(self.axis_step[a], planes[a][row])) for a in range(3)]
+        return self.corrections.apply(position, row, t)
