@@ -37,10 +37,11 @@ foreign() {
 run_kind() {
   local kind=$1 build=build-cross/$1 runner=
   # shellcheck disable=SC2046  # options are words
-  cmake -S . -B "$build" -G Ninja -DREEB_BUILD_ENCODER=OFF $(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) \
-    $(options "$kind") >/dev/null
-  cmake --build "$build" --target decode_stream >/dev/null
-  [[ $kind == arm64 ]] && runner=qemu-aarch64
+  cmake -S . -B "$build" -G Ninja -DREEB_BUILD_ENCODER=OFF \
+    $(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) \
+    $(options "$kind") >/dev/null || return 1
+  cmake --build "$build" --target decode_stream >/dev/null || return 1
+  if [[ $kind == arm64 ]]; then runner=qemu-aarch64; fi
   conformance/run.py --decoder "$runner $build/conformance/decode_stream {stream} {out}" --failures
 }
 

@@ -29,6 +29,10 @@ def f64(value):
     return bytes([len(raw)]) + raw
 
 
+LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("order", "order_bytes"), ("motion", "motion_bytes"),
+           ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"), ("corrections", "correction_bytes"))
+
+
 class Fields:
     """Reads fields of bytes."""
 
@@ -48,8 +52,8 @@ class Fields:
             if byte < 128:
                 return value
 
-    def rest(self):
-        return self.data[self.at:]
+    def f64(self):
+        return self.take(1 + self.data[self.at])
 
 
 class Header(dict):
@@ -83,13 +87,16 @@ def read_group(payload):
     if h["profile"] == b"\2":
         h["axis_steps"] = f.take(12)
     h.update(region_count=f.uv(), flags=f.take(1), motion_bytes=f.uv(), coefficient_bytes=f.uv(), basis_bytes=f.uv())
-    return h.but(motion=f.take(h["motion_bytes"]), coefficients=f.take(h["coefficient_bytes"]),
-                 basis=f.take(h["basis_bytes"]))
+    if h["flags"][0] & 2:
+        h["correction_step"] = f.f64()
+        h.update(correction_count=f.uv(), correction_bytes=f.uv())
+    for section, length in LENGTHS:
+        if length in h:
+            h[section] = f.take(h[length])
+    return h
 
 
 READERS = {b"HEAD": read_head, b"REFM": read_reference, b"GRUP": read_group}
-LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("order", "order_bytes"), ("motion", "motion_bytes"),
-           ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"))
 
 
 class File:
@@ -354,6 +361,18 @@ def add_sections(m):
     regions = File(m.sound("main_regions"))
     m.add("region_out_of_range", "corrupt", "A region that is not there.", regions.edited(b"GRUP", motion=bytes(400)))
     m.add("no_motion", "corrupt", "An empty motion section.", regions.edited(b"GRUP", motion=b""))
+    bounded = File(m.sound("corrections"))
+    corrected = read_group(bounded.chunks[2][1])
+    for name, sentence, changes in (
+            ("too_few_corrections", "A correction more than correction_count.",
+             dict(correction_count=corrected["correction_count"] - 1)),
+            ("too_many_corrections", "A correction less than correction_count.",
+             dict(correction_count=corrected["correction_count"] + 1)),
+            ("endless_corrections", "More corrections than coordinates.", dict(correction_count=3 * 72 * 5 + 1)),
+            ("correction_step_zero", "correction_step 0.", dict(correction_step=f64(0.0))),
+            ("short_corrections", "Half of the corrections.",
+             dict(corrections=corrected["corrections"][:len(corrected["corrections"]) // 2]))):
+        m.add(name, "corrupt", sentence, bounded.edited(b"GRUP", **changes))
     listed = File(m.sound("listed_faces"))
     rest = read_reference(listed.chunks[1][1])["rest"]
     m.add("corner_out_of_range", "corrupt", "A listed face with a vertex that is not there.",

@@ -47,6 +47,8 @@ class Test:
                 fault = self.judge(done, out)
             except subprocess.TimeoutExpired:
                 fault = "no end after %d s" % timeout
+            except OSError as error:
+                fault = str(error)
         return Result(self, fault, time.monotonic() - start)
 
     def judge(self, done, out):

@@ -63,7 +63,26 @@ class Maker {
   std::vector<Stream> streams;
 };
 
+/// The stream that spec/example.md explains byte by byte.
+Bytes worked_example() {
+  Shape triangle{.name = "triangle", .connectivity = {}, .positions = {}};
+  for (int i = 0; i < 3; ++i) triangle.add_vertex(0, 0, 0);
+  triangle.add_face({0, 1, 2});
+  const std::vector<int32_t> grid = {0, 0, 0, 200, 0, 0, 0, 100, 0};
+  const BuiltMesh mesh = build_mesh(triangle.connectivity, grid);
+  BuiltGroup g = plain_group(2, 1);
+  g.coefficients = [](uint32_t, uint32_t row) { return int64_t{2} - 3 * row; };
+  g.basis = [](uint32_t k, uint32_t row) { return k == 0 ? int64_t{row} - 1 : row == 3 ? 2 : 0; };
+  FileBuilder file({.total_frames = 2, .frame_rate = 30});
+  file.metadata({{"name", "example"}});
+  file.reference({.origin = {-1, 0, 0.5f}, .grid_step = 0.01f}, mesh);
+  file.group(mesh, g);
+  return file.finish();
+}
+
 void add_containers(Maker& m) {
+  m.add("example", "The stream that the specification explains byte by byte.", worked_example());
+
   const BuiltMesh mesh = mesh_of(tetrahedron());
   FileBuilder unknown({.total_frames = 4});
   unknown.chunk("xtra", random_bytes(1, 100));
@@ -194,6 +213,37 @@ void add_motion(Maker& m) {
   m.add("motion_unused", "Regions without any motion.", build_file(mesh, still));
 }
 
+/// Single steps here and there, long runs, large numbers, and values in their place.
+Correction scattered(uint32_t row, uint32_t t, uint32_t axis) {
+  const uint32_t i = row * 31 + t * 7 + axis;
+  if (row % 5 == 2) return {};
+  if (i % 97 == 3) return {0, true, static_cast<float>(i) * 0.37f};
+  if (i % 13 == 0) return {(int64_t{1} << i % 53) - (i % 2 != 0 ? 0 : 1), false, 0};
+  if (row % 7 == 3) return {t % 2 != 0 ? 1 : -2, false, 0};
+  return i % 9 == 1 ? Correction{-1, false, 0} : Correction{};
+}
+
+void add_corrections(Maker& m) {
+  const BuiltMesh mesh = mesh_of(torus(9, 8));
+  BuiltGroup g = plain_group(5, 3);
+  g.header.correction_step = 0.001;
+  g.correction = scattered;
+  m.add("corrections", "Corrections of every size, and values that replace coordinates.",
+        build_file(mesh, g));
+  BuiltGroup thesis = thesis_group(3);
+  thesis.header.correction_step = 1e-300;
+  thesis.correction = scattered;
+  m.add("thesis_corrections", "The same in the thesis profile, in steps too small to matter.",
+        build_file(mesh, thesis));
+  g.correction = [](uint32_t, uint32_t, uint32_t) { return Correction{}; };
+  m.add("no_corrections", "The bit for corrections, and none: their section is not empty.",
+        build_file(mesh, g));
+  g.correction = [](uint32_t, uint32_t t, uint32_t a) {
+    return Correction{t == a ? 0 : 5, false, 0};
+  };
+  m.add("dense_corrections", "Nearly every coordinate corrected.", build_file(mesh, g));
+}
+
 Connectivity odd_faces() {
   Connectivity c;
   c.vertex_count = 12;
@@ -257,6 +307,7 @@ std::vector<Stream> built_streams() {
   add_components(m);
   add_residuals(m);
   add_motion(m);
+  add_corrections(m);
   add_meshes(m);
   add_levels(m);
   return m.streams;

@@ -27,6 +27,12 @@ EncodeOptions with(EncodeOptions o, Profile profile, int regions = 0, uint32_t g
   return o;
 }
 
+EncodeOptions bounded(double error) {
+  EncodeOptions o = at(error);
+  o.target = Target::kMaxError;
+  return o;
+}
+
 /// Every vertex goes its own way: as many components as there can be.
 void scatter(const float* rest, double time, double* xyz) {
   for (int a = 0; a < 3; ++a) {
@@ -141,6 +147,10 @@ void add_profiles(Maker& m) {
   m.add("fast", "Fast profile.", torus(16, 11), 8, with(at(0.1), Profile::kFast));
   m.add("fast_regions", "Fast profile with regions, two groups, open and loose parts.",
         with_isolated(grid(16, 12), 4), 12, with(at(0.1), Profile::kFast, 4, 7), fold);
+  m.add("bounded", "Every coordinate's error bounded by corrections.", torus(16, 11), 10,
+        bounded(0.002), scatter);
+  m.add("bounded_groups", "The same in groups, with vertices that are far off.",
+        with_isolated(grid(16, 12), 6), 9, with(bounded(0.01), Profile::kFast, 2, 4), fold);
   m.add("thesis", "Thesis profile.", torus(12, 8), 5, with(at(0.3), Profile::kThesis));
   m.add("thesis_regions",
         "Thesis profile with regions: transforms follow those of the frame before.", torus(14, 9),

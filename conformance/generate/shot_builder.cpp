@@ -8,6 +8,7 @@
 
 #include "bitstream/chunk.h"
 #include "bitstream/syntax.h"
+#include "codec/common/correction_field.h"
 #include "codec/common/motion_syntax.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
@@ -73,6 +74,18 @@ Bytes code_motion(const BuiltMesh& mesh, const BuiltGroup& group) {
   return coder.finish();
 }
 
+/// Counts the corrections as it codes them.
+Bytes code_corrections(const BuiltMesh& mesh, BuiltGroup& group) {
+  CorrectionField field(mesh.surface.graph, group.header.frame_count);
+  BinaryEncoder coder;
+  group.header.correction_count = 0;
+  field.code(coder, group.correction, [&](uint32_t, uint32_t, uint32_t, const Correction&) {
+    ++group.header.correction_count;
+    return true;
+  });
+  return coder.finish();
+}
+
 }  // namespace
 
 BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
@@ -105,6 +118,10 @@ void build_sections(const BuiltMesh& mesh, BuiltGroup& group) {
   if (group.coefficients) group.coefficient_section = code_coefficients(mesh, group);
   if (group.basis) group.basis_section = code_basis(group);
   if (group.binding && h.region_count > 0) group.motion_section = code_motion(mesh, group);
+  if (group.correction) {
+    group.header.flags |= GroupHeader::kCorrected;
+    group.correction_section = code_corrections(mesh, group);
+  }
 }
 
 FileBuilder::FileBuilder(const SequenceHeader& header) { require(writer_.begin(header)); }
@@ -115,8 +132,8 @@ void FileBuilder::reference(const ReferenceHeader& header, const BuiltMesh& mesh
 
 void FileBuilder::group(const BuiltMesh& mesh, BuiltGroup group) {
   build_sections(mesh, group);
-  require(writer_.group(group.header, group.motion_section, group.coefficient_section,
-                        group.basis_section));
+  require(writer_.group(group.header, {group.motion_section, group.coefficient_section,
+                                       group.basis_section, group.correction_section}));
 }
 
 void FileBuilder::metadata(const std::vector<MetadataEntry>& entries) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bitstream/container.h"
+#include "codec/common/corrections.h"
 #include "codec/common/field.h"
 #include "codec/common/motion_model.h"
 #include "codec/common/prediction_graph.h"
@@ -40,7 +41,8 @@ struct BuiltGroup {
   Residuals basis;
   std::function<RegionBinding(uint32_t row)> binding;
   std::function<MotionModel::Transform(uint32_t component, uint32_t region)> transform;
-  Bytes motion_section, coefficient_section, basis_section;
+  std::function<Correction(uint32_t row, uint32_t t, uint32_t axis)> correction;
+  Bytes motion_section, coefficient_section, basis_section, correction_section;
 };
 
 /// Makes the sections that are not there.

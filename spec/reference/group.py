@@ -34,8 +34,7 @@ def check_group(group):
         fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
-    unused = (group.region_count == 0 and group.motion) or (thesis and group.basis) or \
-        (group.correction_count == 0 and group.corrections)
+    unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
 
 
