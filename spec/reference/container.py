@@ -8,7 +8,7 @@ from .errors import Corrupt, LimitExceeded, Truncated, Unsupported, require
 SIGNATURE = b"\x89REEB\r\n"
 UINT32 = (1 << 32) - 1
 MAIN, FAST, THESIS, LOSSLESS = 0, 1, 2, 3
-CORRECTED = 2  # bit of a group's flags
+CONTINUES, CORRECTED = 1, 2  # bits of a group's flags
 
 # README.md section 5: what this decoder allows.
 MAX_FRAMES = 1 << 20
@@ -149,7 +149,7 @@ def read_group(payload):
     if profile == THESIS:
         axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
     region_count = 0 if lossless else reader.uv("region_count", 0, UINT32)
-    flags = reader.flags("flags", 0 if lossless else CORRECTED)
+    flags = reader.flags("flags", 0 if lossless else CONTINUES | CORRECTED)
     group = Group(first_frame, frame_count, shot, profile, component_count, step, axis_step, region_count, flags)
     motion_bytes = 0 if lossless else reader.uv("motion_bytes", 0, UINT32)
     coefficient_bytes = reader.uv("coefficient_bytes", 0, UINT32)

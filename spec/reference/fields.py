@@ -72,10 +72,13 @@ class Contexts:
 
 
 class ResidualDecoder:
-    """Section 4."""
+    """Section 4. before: that of the group that this one continues, section 6."""
 
-    def __init__(self, data):
+    def __init__(self, data, before=None):
         self.decoder = RangeDecoder(data)
+        if before is not None:
+            self.mixer, self.escape = before.mixer, before.escape
+            return
         self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS * 6, 100)
         self.escape = [adaptive_bits(55) for _ in range(8)]
 
@@ -103,11 +106,12 @@ class ResidualDecoder:
 
 
 class Field:
-    def __init__(self, data, rows, options, positions=None):
-        """positions: grid position of every row, where weights learn from the reference."""
+    def __init__(self, data, rows, options, positions=None, before=None):
+        """positions: grid position of every row, where weights learn from the reference. before: the field of the group
+        that this one continues."""
         self.rows = rows
         self.options = options
-        self.residuals = ResidualDecoder(data)
+        self.residuals = ResidualDecoder(data, before and before.residuals)
         self.magnitude = [0] * len(rows)
         self.last = [0] * len(rows)
         self.history = [0] * len(rows)
@@ -116,7 +120,12 @@ class Field:
         self.recent = 0
         self.planes = []
         self.weights = []
-        if options.predict:
+        if before is not None and options.adapt and positions is not None:
+            self.weights = before.weights
+            for weights in self.weights:
+                weights.forget()
+                weights.solve()
+        elif options.predict:
             self.weights = [RowWeights(rows, r, options.weights) for r in range(len(rows))]
             for weights in self.weights:
                 weights.solve()
@@ -201,9 +210,9 @@ class Field:
                 weights.solve()
 
 
-def decode_field(data, rows, components, options, positions=None):
-    """The planes of a section."""
-    field = Field(data, rows, options, positions if options.predict else None)
+def decode_field(data, rows, components, options, positions=None, before=None):
+    """A section; the result's `planes` are its values."""
+    field = Field(data, rows, options, positions if options.predict else None, before)
     for k in range(components):
         field.decode_component(k)
-    return field.planes
+    return field

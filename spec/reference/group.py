@@ -1,6 +1,6 @@
 """README.md section 3: decoding of shots, groups and frames."""
 from .arithmetic import sum32
-from .container import LOSSLESS, THESIS
+from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS
 from .corrections import Corrections
 from .errors import Corrupt, require
 from .fields import BASIS, COEFFICIENTS, decode_field
@@ -38,27 +38,41 @@ def check_group(group):
     require(not unused, "a section is there that the group does not use")
 
 
-def decode_group(group, shot):
-    """Step 3; what it returns gives position(row, t)."""
-    check_group(group)
-    if group.profile == LOSSLESS:
-        return LosslessGroup(group, shot.rows, shot.positions, shot.reference)
-    thesis = group.profile == THESIS
-    motion = None
-    if group.region_count > 0:
-        motion = Motion(group.motion, shot.rows, group.region_count, group.component_count, thesis, shot.positions)
-    planes = decode_field(group.coefficients, shot.rows, group.component_count, COEFFICIENTS[group.profile],
-                          shot.positions)
-    if motion is not None:
-        for k, plane in enumerate(planes):
-            planes[k] = [sum32(x, motion.motion(r, k)) for r, x in enumerate(plane)]
-    corrections = Corrections(group, shot.rows)
-    if thesis:
-        return ThesisSynthesis(planes, group.axis_step, shot.reference.origin, corrections)
-    time_rows, time_order = build_temporal_graph(group.frame_count)
-    basis = decode_field(group.basis, time_rows, 1 + group.component_count, BASIS)
-    return Synthesis(len(shot.rows), planes, basis, time_order, group.quantization_step, shot.reference.origin,
-                     corrections)
+class DecodedGroup:
+    """Step 3. before: the group that this one continues."""
+
+    def __init__(self, group, shot, before=None):
+        check_group(group)
+        self.coefficients = self.basis = None
+        if group.profile == LOSSLESS:
+            self.frames = LosslessGroup(group, shot.rows, shot.positions, shot.reference)
+            return
+        planes = self.decode_planes(group, shot, before)
+        corrections = Corrections(group, shot.rows)
+        origin = shot.reference.origin
+        if group.profile == THESIS:
+            self.frames = ThesisSynthesis(planes, group.axis_step, origin, corrections)
+            return
+        time_rows, time_order = build_temporal_graph(group.frame_count)
+        self.basis = decode_field(group.basis, time_rows, 1 + group.component_count, BASIS,
+                                  before=before and before.basis)
+        self.frames = Synthesis(len(shot.rows), planes, self.basis.planes, time_order, group.quantization_step, origin,
+                                corrections)
+
+    def decode_planes(self, group, shot, before):
+        motion = None
+        if group.region_count > 0:
+            motion = Motion(group.motion, shot.rows, group.region_count, group.component_count,
+                            group.profile == THESIS, shot.positions)
+        self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
+                                         COEFFICIENTS[group.profile], shot.positions, before and before.coefficients)
+        planes = self.coefficients.planes
+        if motion is None:
+            return planes
+        return [[sum32(x, motion.motion(r, k)) for r, x in enumerate(plane)] for k, plane in enumerate(planes)]
+
+    def position(self, row, t):
+        return self.frames.position(row, t)
 
 
 class Decoder:
@@ -77,6 +91,25 @@ class Decoder:
             self.shots[number] = Shot(reference, self.draco_command)
         return self.shots[number]
 
+    def group(self, number):
+        """fields.md section 6 says what groups need others."""
+        if number not in self.groups:
+            group = self.file.groups[number]
+            shot = self.shot(group.shot)
+            before = self.group(self.number_before(number)) if group.flags & CONTINUES else None
+            self.groups[number] = DecodedGroup(group, shot, before)
+        return self.groups[number]
+
+    def number_before(self, number):
+        group, before = self.file.groups[number], self.file.groups[number - 1]
+        there = number > 0 and before.first_frame + before.frame_count == group.first_frame
+        require(there, "the group that a group continues is missing")
+        require(before.shot == group.shot and before.profile == group.profile and group.profile in (MAIN, FAST),
+                "a group continues one of another kind")
+        row = self.file.groups[max(0, number - 63):number + 1]
+        require(len(row) < 64 or not all(g.flags & CONTINUES for g in row), "too many groups continue each other")
+        return number - 1
+
     def frame(self, t):
         """Step 4: (positions by output index, faces)."""
         for number, group in enumerate(self.file.groups):
@@ -84,10 +117,9 @@ class Decoder:
                 break
         else:
             raise Corrupt("frame %d is missing" % t)
+        decoded = self.group(number)
         shot = self.shot(group.shot)
-        if number not in self.groups:
-            self.groups[number] = decode_group(group, shot)
         positions = [None] * len(shot.rows)
         for r, index in enumerate(shot.output):
-            positions[index] = self.groups[number].position(r, t - group.first_frame)
+            positions[index] = decoded.position(r, t - group.first_frame)
         return positions, shot.faces

@@ -64,6 +64,10 @@ class RowWeights:
             if not to_one:
                 self.T[i] = self.T[i] + s * t
 
+    def forget(self):
+        """fields.md section 6."""
+        self.M = [[x * 0.5 for x in row] for row in self.M]
+
     def solve(self):
         n = self.n
         A = [list(row) for row in self.M]
