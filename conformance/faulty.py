@@ -361,6 +361,19 @@ def add_sections(m):
     regions = File(m.sound("main_regions"))
     m.add("region_out_of_range", "corrupt", "A region that is not there.", regions.edited(b"GRUP", motion=bytes(400)))
     m.add("no_motion", "corrupt", "An empty motion section.", regions.edited(b"GRUP", motion=b""))
+    chain = File(m.sound("open_groups"))
+    at = chain.offsets()
+    m.add("first_continues", "corrupt", "The first group continues one; those after it continue it.",
+          chain.edited(b"GRUP", flags=b"\1"))
+    m.add("broken_run", "corrupt", "The second of four groups is lost, and with it those that continue it.",
+          flipped(chain.pack(), at[3] + 30))
+    m.add("other_profile_continues", "corrupt", "A group continues one of another profile.",
+          chain.edited(b"GRUP", 1, profile=b"\1"))
+    m.add("thesis_continues", "corrupt", "A group of the thesis profile continues one.",
+          File(m.sound("thesis")).edited(b"GRUP", flags=b"\1"))
+    longest = File(m.sound("longest_run"))
+    m.add("run_too_long", "corrupt", "64 groups that continue the one before: the last is lost.",
+          longest.edited(b"GRUP", 64, flags=b"\1"))
     bounded = File(m.sound("corrections"))
     corrected = read_group(bounded.chunks[2][1])
     for name, sentence, changes in (

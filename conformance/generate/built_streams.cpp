@@ -153,6 +153,26 @@ void add_components(Maker& m) {
   m.add("profiles_mixed", "A group of each profile in one shot.", mixed.finish());
 }
 
+/// As many groups in a row as may continue each other, then one that continues none.
+void add_open_groups(Maker& m) {
+  const BuiltMesh mesh = mesh_of(strip(6));
+  FileBuilder file({.total_frames = 65});
+  file.reference({}, mesh);
+  // A group is coded after the fields of the one before, which only the encoder keeps: sections of
+  // random bytes mean something after any.
+  for (uint32_t i = 0; i < 65; ++i) {
+    BuiltGroup g = plain_group(1, 2);
+    g.header.first_frame = i;
+    g.header.flags = i % 64 == 0 ? 0 : GroupHeader::kContinues;
+    g.coefficients = g.basis = nullptr;
+    g.coefficient_section = random_bytes(100 + i, 100);
+    g.basis_section = random_bytes(200 + i, 60);
+    file.group(mesh, g);
+  }
+  m.add("longest_run", "63 groups that continue the one before, each of random bytes.",
+        file.finish());
+}
+
 void add_residuals(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(9, 8));
   BuiltGroup g = plain_group(4, 5);
@@ -305,6 +325,7 @@ std::vector<Stream> built_streams() {
   add_containers(m);
   add_extremes(m);
   add_components(m);
+  add_open_groups(m);
   add_residuals(m);
   add_motion(m);
   add_corrections(m);

@@ -33,6 +33,13 @@ EncodeOptions bounded(double error) {
   return o;
 }
 
+EncodeOptions open_at(uint32_t group_length, uint32_t open_groups) {
+  EncodeOptions o = at(0.2);
+  o.group_length = group_length;
+  o.open_groups = open_groups;
+  return o;
+}
+
 /// Every vertex goes its own way: as many components as there can be.
 void scatter(const float* rest, double time, double* xyz) {
   for (int a = 0; a < 3; ++a) {
@@ -126,6 +133,12 @@ void add_groups(Maker& m) {
         with(at(0.2), Profile::kMain, 0, 4));
   m.add("groups_of_one", "Every frame is a group.", torus(8, 6), 4,
         with(at(0.2), Profile::kMain, 0, 1));
+  m.add("open_groups", "Every group but the first continues the one before.", torus(10, 8), 14,
+        open_at(4, 63));
+  m.add("open_runs", "Runs of a group and one that continues it, with regions.", torus(14, 9), 12,
+        with(open_at(3, 1), Profile::kMain, 3, 3), fold);
+  m.add("fast_open_groups", "Groups of the fast profile that continue each other.", torus(10, 8), 9,
+        with(open_at(3, 63), Profile::kFast, 0, 3));
   m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,
         at(0.05), rest);
   m.add("long", "160 frames of few vertices that go their own ways: more than 64 components.",
