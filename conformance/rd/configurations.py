@@ -22,7 +22,7 @@ TOOLS = {
 @dataclasses.dataclass(frozen=True)
 class Configuration:
     name: str
-    group: str  # reeb, effort, ablation, peer or lossless
+    group: str  # profile, effort, ablation, peer or lossless
     words: str  # for people
     targets: tuple
     unit: str = "kg"  # of the targets
@@ -51,7 +51,7 @@ class Configuration:
         return [programs["decode_positions"], stream, decoded]
 
 
-def _reeb(name, words, *options, group="reeb", targets=KG_TARGETS, **more):
+def _reeb(name, words, *options, group="profile", targets=KG_TARGETS, **more):
     return Configuration(name, group, words, targets, options=options, **more)
 
 

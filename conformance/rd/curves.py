@@ -91,18 +91,21 @@ STYLE = ("text{font:11px system-ui,sans-serif;fill:#555}.title{font-weight:600;f
 def sheet(panels, columns=3, width=330, height=260):
     """Several plots with one legend, as a file of its own. `panels`: (title, curves) pairs."""
     rows = math.ceil(len(panels) / columns)
-    names = {}
-    for _, curves in panels:
-        names.update({curve.name: curve.words for curve in curves})
     full_width, full_height = columns * width, rows * height + 44
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full_width} {full_height}" width="{full_width}" '
              f'height="{full_height}"><style>{STYLE}</style><rect width="100%" height="100%" fill="white"/>']
     for i, (title, drawn) in enumerate(panels):
-        parts.append(panel(drawn, i % columns * width, i // columns * height, width, height, title,
+        parts.append(panel(drawn, i % columns * width, i // columns * height + 4, width, height - 8, title,
                            "bits per vertex and frame", "" if i % columns else "KG error, percent"))
-    step = full_width / max(1, len(names))
-    for i, (name, words) in enumerate(names.items()):
-        at, y = i * step + 10, full_height - 18
-        parts.append(f'<path d="M{at:.0f} {y}h22" {look(name)} stroke-width="2.4"/>'
-                     f'<text x="{at + 27:.0f}" y="{y + 4}">{html.escape(words)}</text>')
-    return "".join(parts) + "</svg>\n"
+    return "".join(parts) + _legend(panels, 10, full_height - 18) + "</svg>\n"
+
+
+def _legend(panels, left, y):
+    """One line that names every curve of all plots, as listed in LOOK."""
+    words = {curve.name: curve.words for _, curves in panels for curve in curves}
+    parts = []
+    for name in sorted(words, key=list(LOOK).index):
+        parts.append(f'<path d="M{left:.0f} {y}h20" {look(name)} stroke-width="2.4"/>'
+                     f'<text x="{left + 25:.0f}" y="{y + 4}">{html.escape(words[name])}</text>')
+        left += 45 + 5.6 * len(words[name])
+    return "".join(parts)

@@ -48,7 +48,7 @@ class Results:
         """{configuration: {sequence: percent more rate than the anchor}} of the other curves."""
         out = {}
         for c in self.configurations:
-            if c.name == anchor or c.group not in ("reeb", "peer"):
+            if c.name == anchor or c.group not in ("profile", "peer"):
                 continue
             if measure == "sted" and not c.keeps_order:
                 continue

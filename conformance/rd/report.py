@@ -9,6 +9,7 @@ Given the folders of the sequences, the page shows what they look like (drawn by
 import argparse
 import base64
 import html
+import math
 import os
 import statistics
 import sys
@@ -26,14 +27,14 @@ HEADLINE_KG = 0.1
 SPEED_TARGET = "kg=0.05"
 
 
-def shade(percent, scale=60):
-    """Attributes of a table cell that tell better (less) from worse by colour."""
+def shade(percent):
+    """Attributes of a table cell that tell better (less) from worse by colour, stronger with every doubling."""
     kind = "good" if percent < 0 else "bad"
-    return f' class="{kind}" style="--much:{min(0.55, abs(percent) / scale * 0.55):.2f}"'
+    return f' class="{kind}" style="--much:{min(0.6, 0.13 * abs(math.log2(1 + percent / 100))):.2f}"'
 
 
 def signed(percent):
-    return f"{percent:+.1f} %" if abs(percent) < 1000 else f"{1 + percent / 100:.0f} ×"
+    return f"{percent:+.1f} %" if percent < 200 else f"{1 + percent / 100:.1f} ×"
 
 
 def rows_of(lines, header):
@@ -101,7 +102,7 @@ def bd_table(results, measure):
 def rate_table(results):
     """Bits per vertex and frame of Reeb's configurations at each KG error."""
     parts = []
-    for c in results.group("reeb"):
+    for c in results.group("profile"):
         targets = [c.target_of(setting) for setting in c.targets]
         lines = []
         for s in results.sequences:
@@ -109,8 +110,8 @@ def rate_table(results):
             if any(rows):
                 lines.append("<tr>" + cells(html.escape(s), *(f"{row['bpvf']:.3f}" if row else "–" for row in rows))
                              + "</tr>")
-        parts.append(f"<h3>{html.escape(c.words)}</h3>" + rows_of(lines, ["KG %", *c.targets]))
-    return "".join(parts)
+        parts.append(f"<div><h3>{html.escape(c.words)}</h3>{rows_of(lines, ['KG %', *c.targets])}</div>")
+    return f'<div class="side">{"".join(parts)}</div>'
 
 
 def ablation_table(results):
@@ -140,7 +141,7 @@ def effort_table(results):
 
 def speed_table(results):
     lines = []
-    for c in results.group("reeb") + results.group("peer"):
+    for c in results.group("profile") + results.group("peer"):
         pairs = []
         for s in results.sequences:
             row = results.at(s, c.name, SPEED_TARGET) or results.at(s, c.name, "bits=11") or results.at(
@@ -176,8 +177,8 @@ def method(command):
 <p>Rates count every byte of a file, connectivity and headers too. KG is the error of Karni and Gotsman in percent;
 STED the spatio-temporal edge difference of Vasa and Skala, which follows what people see. Each sequence is encoded,
 decoded by the plain decoder of the codec and compared with the input. BD-rate is the average difference of rate at
-equal error over the errors that both curves reach, by monotone cubic interpolation of the logarithms. Times are processor
-seconds of whole commands on one thread, files read and written; memory is the largest resident set, which the measuring
+equal error over the errors that both curves reach, by monotone cubic interpolation of the logarithms. Times are
+processor seconds of whole commands on one thread, files read and written; memory is the largest resident set, which the measuring
 program itself keeps from going below some 23 MiB. Draco codes frame by frame at its strongest setting and does not keep
 the vertex order, nor does PCA; both are spared its cost. Every line of the table holds the command that made it.</p>
 <pre>{html.escape(command)}</pre>"""
@@ -198,7 +199,7 @@ def page(results, pictures, command):
 show codecs, and choose the error.</p>
 {legend(results)}{sequence_cards(results, pictures)}
 <h2>BD-rate against Reeb's default</h2><p class="soft">Rate that the others add (orange) or save (green) at equal KG
-error.</p>{bd_table(results, "kg")}
+error; from three times the rate on, how many times.</p>{bd_table(results, "kg")}
 <h3>At equal STED</h3>{bd_table(results, "sted")}
 {ablation_table(results)}{effort_table(results)}
 <h2>Rates</h2><p class="soft">Bits per vertex and frame at a KG error in percent.</p>{rate_table(results)}

@@ -18,6 +18,7 @@ import process  # noqa: E402
 import report  # noqa: E402
 import rate_distortion  # noqa: E402
 import sequences  # noqa: E402
+import summary  # noqa: E402
 import table  # noqa: E402
 
 # Stands for all programs of a build: "encodes" to a file whose size tells the error asked for, and notes that it did.
@@ -86,7 +87,7 @@ class RunTest(unittest.TestCase):
         self.addCleanup(self.build.folder.cleanup)
 
     def test_writes_a_line_for_each_target(self):
-        code, _ = self.build.run("--configurations", "reeb", "--kg", "0.5", "0.1", "-j", "2")
+        code, _ = self.build.run("--configurations", "profile", "--kg", "0.5", "0.1", "-j", "2")
         self.assertEqual(code, 0)
         rows = table.read(self.build.csv)
         row = rows["walk", "reeb", "kg=0.5"]
@@ -98,7 +99,7 @@ class RunTest(unittest.TestCase):
         self.assertGreater(row["encode_s"], 0)
 
     def test_measures_nothing_twice(self):
-        words = ("--configurations", "reeb", "--kg", "0.5")
+        words = ("--configurations", "profile", "--kg", "0.5")
         self.build.run(*words)
         self.build.encodings()
         _, said = self.build.run(*words)
@@ -134,7 +135,7 @@ class CheckTest(unittest.TestCase):
     def setUp(self):
         self.build = Build()
         self.addCleanup(self.build.folder.cleanup)
-        self.build.run("--configurations", "reeb", "--kg", "0.5", "0.1")
+        self.build.run("--configurations", "profile", "--kg", "0.5", "0.1")
 
     def check(self, *words):
         return self.build.run(*words, program=check_results.main)
@@ -204,7 +205,7 @@ class ConfigurationsTest(unittest.TestCase):
     def test_names_are_told_apart(self):
         names = [c.name for c in configurations.ALL]
         self.assertEqual(len(names), len(set(names)))
-        self.assertFalse(set(names) & ({c.group for c in configurations.ALL} - {"reeb"}))
+        self.assertFalse(set(names) & {c.group for c in configurations.ALL})
 
     def test_coding_tools_are_those_of_the_codec(self):
         header = os.path.join(CONFORMANCE, "..", "codec", "common", "coding_tools.h")
@@ -220,11 +221,30 @@ class ConfigurationsTest(unittest.TestCase):
             configurations.select(["nothing"])
 
 
+class SummaryTest(unittest.TestCase):
+    def row(self, configuration, target, size):
+        numbers = dict.fromkeys(table.NUMBERS, 1.0)
+        return {"sequence": "walk", "configuration": configuration, "target": target, "version": "", "command": "",
+                **numbers, "bytes": size, "bpvf": size / 100}
+
+    def test_tables_by_hand(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "t.csv")
+            table.write(path, [self.row("reeb", "kg=0.5", 100), self.row("without-rdo", "kg=0.5", 103),
+                               self.row("reeb-effort-3", "kg=0.5", 98), self.row("fpzip-lossless", "lossless", 999)])
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                self.assertEqual(summary.main([path]), 0)
+        for line in ("| walk |  | 1.000 |  |  |  |  |  |",
+                     "| without rate-distortion optimised quantization | +3.0 | – | – |",
+                     "| Reeb, effort 3 | -2.00 % | 1.00 |", "| walk | 9.99 |"):
+            self.assertIn(line, out.getvalue())
+
+
 class ReportTest(unittest.TestCase):
     def test_page_and_drawing_are_whole(self):
         build = Build()
         self.addCleanup(build.folder.cleanup)
-        build.run("--configurations", "reeb", "--kg", "1", "0.5", "0.1", "0.05")
+        build.run("--configurations", "profile", "--kg", "1", "0.5", "0.1", "0.05")
         page, drawing = (os.path.join(build.folder.name, name) for name in ("r.html", "r.svg"))
         self.assertEqual(report.main([build.csv, "-o", page, "--svg", drawing]), 0)
         with open(page, encoding="utf-8") as file:
