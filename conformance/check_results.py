@@ -78,8 +78,9 @@ def arguments_of(words):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="*", metavar="FOLDER", help="of the sequences of results.csv")
     parser.add_argument("--csv", help="another table")
-    parser.add_argument("--configurations", nargs="+", default=["profile", "effort", "lossless"], metavar="NAME",
-                        help="names or groups as in rate_distortion.py; default profile effort lossless")
+    parser.add_argument("--configurations", nargs="+", metavar="NAME",
+                        default=["profile", "effort", "bounded", "lossless"],
+                        help="names or groups as in rate_distortion.py; all but ablation, peer")
     parser.add_argument("--build", default=os.path.join(os.path.dirname(HERE), "build"), help="default build")
     parser.add_argument("-j", type=int, default=1, help="so many encodings at once; default 1")
     parser.add_argument("--update", action="store_true", help="write the new figures into the table")

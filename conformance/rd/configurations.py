@@ -22,7 +22,7 @@ TOOLS = {
 @dataclasses.dataclass(frozen=True)
 class Configuration:
     name: str
-    group: str  # profile, effort, ablation, peer or lossless
+    group: str  # profile, effort, ablation, bounded, lossless or peer
     words: str  # for people
     targets: tuple
     unit: str = "kg"  # of the targets
@@ -69,6 +69,8 @@ ALL = (
     *(_reeb(f"without-{tool}", f"without {words}", group="ablation", targets=ABLATION_TARGETS, without=tool)
       for tool, words in TOOLS.items()),
     _reeb("without-motion", "without the motion model", "--regions", "0", group="ablation", targets=ABLATION_TARGETS),
+    _reeb("reeb-bounded", "Reeb, error bounded", group="bounded", targets=("0.1%", "0.01%", "0.001%"),
+          unit="max-error"),
     _reeb("reeb-lossless", "Reeb, lossless", "--lossless", group="lossless", targets=("",), unit="lossless"),
     _peer("pca", "PCA with parallelograms", "kg", KG_TARGETS),
     _peer("draco", "Draco, frame by frame", "bits", map(str, range(7, 15))),

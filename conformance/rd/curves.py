@@ -5,7 +5,8 @@ import math
 
 # Told apart also by those who do not see red and green alike; dashes tell Reeb's configurations from one another.
 LOOK = {"reeb": ("#0072b2", ""), "reeb-reorder": ("#0072b2", "2 3"), "reeb-fast": ("#56b4e9", ""),
-        "reeb-thesis": ("#7b61c4", "7 4"), "pca": ("#d55e00", ""), "draco": ("#009e73", ""),
+        "reeb-thesis": ("#7b61c4", "7 4"), "reeb-bounded": ("#222222", "2 3"), "pca": ("#d55e00", ""),
+        "draco": ("#009e73", ""),
         "meshopt": ("#e69f00", ""), "zfp": ("#cc79a7", "")}
 OTHER = ("#888888", "4 3")
 

@@ -33,9 +33,9 @@ class Results:
     def at(self, sequence, configuration, target):
         return self.rows.get((sequence, configuration, target))
 
-    def curves(self, sequence, measure, names=DRAWN):
+    def curves(self, sequence, measure):
         drawn = []
-        for name in names:
+        for name in DRAWN + (("reeb-bounded",) if measure == "max_error" else ()):
             points = [(row["bpvf"], row[measure],
                        f"{BY_NAME[name].words}, {row['target']}: {row['bpvf']:.4g} bits, "
                        f"{MEASURES[measure]} {row[measure]:.3g}")

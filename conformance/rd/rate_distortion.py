@@ -205,7 +205,8 @@ def arguments_of(words):
     parser.add_argument("folders", nargs="*", metavar="FOLDER", help="of sequences; generated samples without any")
     parser.add_argument("--samples", nargs="+", metavar="NAME:FRAMES", help="sequences to generate, e.g. sheet:50")
     parser.add_argument("--configurations", nargs="+", default=["profile", "peer"], metavar="NAME",
-                        help="names or groups: profile, effort, ablation, peer, lossless, all; default profile peer")
+                        help="names or groups: profile, effort, ablation, bounded, lossless, peer, all; default "
+                             "profile peer")
     parser.add_argument("--sequences", nargs="+", metavar="NAME", help="only these")
     parser.add_argument("--kg", nargs="+", metavar="P", help="KG errors in percent in place of each one's own")
     parser.add_argument("--build", default=os.path.join(ROOT, "build"), help="build folder; default build")

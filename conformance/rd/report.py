@@ -61,7 +61,7 @@ def headline(results):
 def legend(results):
     buttons = []
     for c in results.configurations:
-        if c.name in figures.DRAWN:
+        if c.name in (*figures.DRAWN, "reeb-bounded"):
             line = f'<svg viewBox="0 0 24 8"><path d="M0 4h24" {curves.look(c.name)} stroke-width="3"/></svg>'
             buttons.append(f'<button data-name="{c.name}" aria-pressed="true">{line}{html.escape(c.words)}</button>')
     measures = "".join(f'<button data-measure="{m}" aria-pressed="{str(m == "kg").lower()}">{html.escape(words)}'
@@ -178,9 +178,10 @@ def method(command):
 STED the spatio-temporal edge difference of Vasa and Skala, which follows what people see. Each sequence is encoded,
 decoded by the plain decoder of the codec and compared with the input. BD-rate is the average difference of rate at
 equal error over the errors that both curves reach, by monotone cubic interpolation of the logarithms. Times are
-processor seconds of whole commands on one thread, files read and written; memory is the largest resident set, which the measuring
-program itself keeps from going below some 23 MiB. Draco codes frame by frame at its strongest setting and does not keep
-the vertex order, nor does PCA; both are spared its cost. Every line of the table holds the command that made it.</p>
+processor seconds of whole commands on one thread, files read and written; memory is the largest resident set, which
+the measuring program itself keeps from going below some 23 MiB. Draco codes frame by frame at its strongest setting
+and does not keep the vertex order, nor does PCA; both are spared its cost. Every line of the table holds the command
+that made it.</p>
 <pre>{html.escape(command)}</pre>"""
 
 
