@@ -38,10 +38,15 @@ class ContainerWriter {
   Status group(const GroupHeader& header, const GroupSections& sections);
   Status finish();
 
+  /// Empties the output, whose bytes the caller has passed on; the file goes on behind them.
+  void flush();
+
  private:
-  void note_chunk(uint64_t offset, uint32_t frame_count);
+  void note_chunk(uint64_t start, uint32_t frame_count);
+  uint64_t offset() const { return flushed_ + out_.size(); }
 
   std::vector<uint8_t>& out_;
+  uint64_t flushed_ = 0;
   SeekTable table_;
   uint64_t noted_end_ = 0;
 };

@@ -22,17 +22,17 @@ Status ContainerWriter::metadata(const std::vector<MetadataEntry>& entries) {
   return {};
 }
 
-void ContainerWriter::note_chunk(uint64_t offset, uint32_t frame_count) {
-  table_.entries.push_back({offset - noted_end_, out_.size() - offset, frame_count});
-  noted_end_ = out_.size();
+void ContainerWriter::note_chunk(uint64_t start, uint32_t frame_count) {
+  table_.entries.push_back({start - noted_end_, offset() - start, frame_count});
+  noted_end_ = offset();
 }
 
 Status ContainerWriter::reference(const ReferenceHeader& header, std::span<const uint8_t> mesh) {
   std::vector<uint8_t> front;
   if (Status s = write_header(header, "REFM", front); !s.ok()) return s;
-  const uint64_t offset = out_.size();
+  const uint64_t start = offset();
   append_chunk(out_, kReferenceChunk, front, std::span(&mesh, 1));
-  note_chunk(offset, 0);
+  note_chunk(start, 0);
   return {};
 }
 
@@ -44,22 +44,27 @@ Status ContainerWriter::group(const GroupHeader& header, const GroupSections& se
   sized.correction_bytes = sections.corrections.size();
   std::vector<uint8_t> front;
   if (Status s = write_header(sized, "GRUP", front); !s.ok()) return s;
-  const uint64_t offset = out_.size();
+  const uint64_t start = offset();
   append_chunk(
       out_, kGroupChunk, front,
       std::array{sections.motion, sections.coefficients, sections.basis, sections.corrections});
-  note_chunk(offset, header.frame_count);
+  note_chunk(start, header.frame_count);
   return {};
 }
 
 Status ContainerWriter::finish() {
   std::vector<uint8_t> front;
   if (Status s = write_header(table_, "seek", front); !s.ok()) return s;
-  const uint64_t offset = out_.size();
+  const uint64_t start = offset();
   append_chunk(out_, kSeekChunk, front);
-  append_u32(out_, static_cast<uint32_t>(out_.size() + kTrailerBytes - offset));
+  append_u32(out_, static_cast<uint32_t>(offset() + kTrailerBytes - start));
   out_.insert(out_.end(), kEndMark.begin(), kEndMark.end());
   return {};
+}
+
+void ContainerWriter::flush() {
+  flushed_ += out_.size();
+  out_.clear();
 }
 
 }  // namespace reeb

@@ -80,9 +80,10 @@ void describe(V& v, MeshHeader& h) {
 }
 
 enum class Profile : uint8_t {
-  kMain = 0,    ///< prediction weights learned while decoding
-  kFast = 1,    ///< prediction weights fixed by the reference
-  kThesis = 2,  ///< no temporal transform: residual of the affine motion per frame and coordinate
+  kMain = 0,      ///< prediction weights learned while decoding
+  kFast = 1,      ///< prediction weights fixed by the reference
+  kThesis = 2,    ///< no temporal transform: residual of the affine motion per frame and coordinate
+  kLossless = 3,  ///< every bit of every position: frames one after another
 };
 
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
@@ -93,7 +94,7 @@ struct GroupHeader {
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;
-  uint32_t component_count = 0;    ///< temporal components
+  uint32_t component_count = 0;    ///< temporal components; lossless: frames that are not copies
   float quantization_step = 1;     ///< world units
   float axis_step[3] = {1, 1, 1};  ///< thesis profile: of each coordinate, world units
   uint32_t region_count = 0;       ///< regions of the affine motion model; 0 where it is not used
@@ -112,10 +113,13 @@ void describe(V& v, GroupHeader& h) {
   v.uv("first_frame", h.first_frame, 0, kMaxUint32);
   v.uv("frame_count", h.frame_count, 1, kMaxGroupFrames);
   v.uv("shot", h.shot, 0, kMaxUint32);
-  v.u8("profile", h.profile, 0, 2);
+  v.u8("profile", h.profile, 0, 3);
   v.uv("component_count", h.component_count, 0, 3 * uint64_t{kMaxGroupFrames});
-  v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
-        std::numeric_limits<float>::max());
+  const bool lossless = h.profile == Profile::kLossless;
+  if (!lossless) {
+    v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
+          std::numeric_limits<float>::max());
+  }
   if (h.profile == Profile::kThesis) {
     constexpr double kLeast = std::numeric_limits<float>::denorm_min();
     constexpr double kMost = std::numeric_limits<float>::max();
@@ -123,9 +127,9 @@ void describe(V& v, GroupHeader& h) {
     v.f32("axis_step_y", h.axis_step[1], kLeast, kMost);
     v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
   }
-  v.uv("region_count", h.region_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, GroupHeader::kContinues | GroupHeader::kCorrected);
-  v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
+  if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
+  v.flags("flags", h.flags, lossless ? 0 : GroupHeader::kContinues | GroupHeader::kCorrected);
+  if (!lossless) v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);
   if ((h.flags & GroupHeader::kCorrected) != 0) {

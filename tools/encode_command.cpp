@@ -25,6 +25,7 @@ struct Options {
   AbsoluteOrPercent max_error;
   double bpvf = 0;
   double size = 0;
+  bool lossless = false;
   bool overwrite = false;
   bool json = false;
   bool allow_gaps = false;
@@ -55,6 +56,7 @@ void choose_target(const Options& o, const Sequence& sequence, EncodeOptions& ou
   }
   if (o.bpvf > 0) aim(Target::kBpvf, o.bpvf);
   if (o.size > 0) aim(Target::kSize, o.size);
+  if (o.lossless) out.target = Target::kLossless;
 }
 
 Status write_stream(const Options& o, const std::vector<uint8_t>& bytes) {
@@ -77,8 +79,10 @@ void report(const Options& o, const Sequence& sequence, const EncodeStats& stats
   const double ratio = static_cast<double>(raw_bytes(sequence)) / static_cast<double>(stats.bytes);
   console.say(o.output + ": " + byte_size(stats.bytes) + ", " + brief(stats.bpvf) +
               " bits per vertex and frame, " + brief(ratio, 3) + " times smaller than float32");
-  console.say("error: KG " + brief(stats.kg) + " %, RMSE " + brief(stats.rmse) + ", maximum " +
-              brief(stats.max_error) + " (" + brief(relative) + " % of the diagonal)");
+  if (o.lossless) console.say("lossless: every position is kept to the bit");
+  if (!o.lossless)
+    console.say("error: KG " + brief(stats.kg) + " %, RMSE " + brief(stats.rmse) + ", maximum " +
+                brief(stats.max_error) + " (" + brief(relative) + " % of the diagonal)");
   for (const EncodeStats::Section& s : stats.sections) {
     console.detail("  " + s.name + ": " + byte_size(static_cast<uint64_t>(s.bits / 8)));
   }
@@ -168,6 +172,7 @@ void add_target_options(CLI::App& command, Options& o) {
                             },
                             "Bytes of the file, not exceeded; suffixes k, M, KiB, MiB, GiB")
                         ->type_name("BYTES"));
+  targets.push_back(command.add_flag("--lossless", o.lossless, "Keep every bit of every position"));
   for (size_t i = 0; i < targets.size(); ++i) {
     targets[i]->group(group);
     for (size_t j = 0; j < i; ++j) targets[i]->excludes(targets[j]);

@@ -1,17 +1,22 @@
 #include "codec/common/kernels.h"
 
+#include "codec/common/displacement_kernels.h"
+
 namespace reeb {
 
 namespace base_kernel {
 extern const Kernels kKernels;
-}
+extern const DisplacementKernels kDisplacementKernels;
+}  // namespace base_kernel
 #ifdef REEB_X86_KERNELS
 namespace avx2_kernel {
 extern const Kernels kKernels;
-}
+extern const DisplacementKernels kDisplacementKernels;
+}  // namespace avx2_kernel
 namespace avx512_kernel {
 extern const Kernels kKernels;
-}
+extern const DisplacementKernels kDisplacementKernels;
+}  // namespace avx512_kernel
 #endif
 
 Kernels fastest_kernels() {
@@ -20,6 +25,14 @@ Kernels fastest_kernels() {
   if (__builtin_cpu_supports("avx2")) return avx2_kernel::kKernels;
 #endif
   return base_kernel::kKernels;
+}
+
+DisplacementKernels fastest_displacement_kernels() {
+#ifdef REEB_X86_KERNELS
+  if (__builtin_cpu_supports("avx512f")) return avx512_kernel::kDisplacementKernels;
+  if (__builtin_cpu_supports("avx2")) return avx2_kernel::kDisplacementKernels;
+#endif
+  return base_kernel::kDisplacementKernels;
 }
 
 }  // namespace reeb

@@ -45,6 +45,7 @@ void GroupSynthesis::sum_components(uint32_t t, const float* const* planes, uint
 
 void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* xyz,
                            size_t stride) const {
+  if (exact_.frame_count() > 0) return exact_.frame(t, output, xyz, stride);
   const auto rows = static_cast<uint32_t>(output.size());
   const double* mean = &mean_[size_t{t} * 3];
   float x[kBlock], y[kBlock], z[kBlock];

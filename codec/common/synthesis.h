@@ -1,6 +1,7 @@
 // From decoded components to positions.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "codec/common/corrections.h"
+#include "codec/common/exact_frames.h"
 #include "codec/common/field.h"
 #include "codec/common/kernels.h"
 
@@ -30,7 +32,12 @@ class GroupSynthesis {
   /// Of as many frames as the group; applied to every frame from now on.
   void set_corrections(Corrections corrections) { corrections_ = std::move(corrections); }
 
-  uint32_t frame_count() const { return static_cast<uint32_t>(mean_.size() / 3); }
+  /// Lossless profile: the frames as they are.
+  explicit GroupSynthesis(ExactFrames exact) : exact_(std::move(exact)) {}
+
+  uint32_t frame_count() const {
+    return std::max(exact_.frame_count(), static_cast<uint32_t>(mean_.size() / 3));
+  }
   /// False where basis or mean trajectory is beyond binary32 or binary64: no position is defined.
   bool finite() const;
   /// Mean trajectory and the K basis values of row = time * 3 + axis, world units.
@@ -55,6 +62,7 @@ class GroupSynthesis {
   bool direct_ = false;       ///< planes are coordinates: the thesis profile
   std::vector<double> mean_;
   Corrections corrections_;
+  ExactFrames exact_;  ///< lossless profile; none in the others
   Kernels kernels_ = fastest_kernels();
 };
 

@@ -20,6 +20,10 @@ constexpr uint64_t kBytesPerRow =
 
 /// Bytes that decoding a group takes at most.
 uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
+  if (h.profile == Profile::kLossless) {
+    return vertices * (kBytesPerRow + 12 * uint64_t{h.component_count}) +
+           uint64_t{h.frame_count} * sizeof(uint32_t);
+  }
   const uint64_t components = h.component_count;
   const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
   // The basis is there as it was decoded, by component and by frame.
@@ -137,6 +141,7 @@ Status Decoder::Impl::open_shot(uint32_t shot) {
   surface.output.clear();
   for (const uint32_t v : surface.surface.order) surface.output.push_back(mesh.output_index[v]);
   std::copy(std::begin(chunk->header.origin), std::end(chunk->header.origin), surface.origin);
+  surface.grid_step = chunk->header.grid_step;
   surface_shot = shot;
   const auto [at, added] = connectivities.try_emplace(shot, std::move(mesh.connectivity));
   if (added) held += connectivity_memory(at->second);

@@ -5,6 +5,7 @@
 
 #include "codec/common/correction_field.h"
 #include "codec/common/motion_syntax.h"
+#include "codec/dec/lossless_decoder.h"
 
 namespace reeb {
 
@@ -115,6 +116,13 @@ bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& 
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     bool keep, GroupState& state, GroupSynthesis& out) {
   const GroupHeader& header = chunk.header;
+  if (header.profile == Profile::kLossless) {
+    state = {};
+    ExactFrames frames;
+    if (Status s = decode_lossless_group(chunk, surface, threads, frames); !s.ok()) return s;
+    out = GroupSynthesis(std::move(frames));
+    return {};
+  }
   if (Status s = check_header(header); !s.ok()) return s;
   if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
   MotionModel motion;

@@ -19,6 +19,7 @@ struct DecodedSurface {
   SurfaceGraph surface;
   std::vector<uint32_t> output;  ///< row of the surface graph -> vertex in output order
   float origin[3] = {0, 0, 0};   ///< of the grid, world units
+  float grid_step = 0;           ///< world units
 };
 
 /// Decodes `count` components of the coefficient section; false where it is damaged.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "codec/enc/lossless_sequence.h"
 #include "codec/enc/sequence_encoder.h"
 
 namespace reeb {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr float kLargestPosition = 1e36f;  ///< leaves room for sums and differences in binary32
 
-Status check_shot(const Shot& shot, size_t index) {
+Status check_shot(const Shot& shot, bool lossless, size_t index) {
   const std::string name = "shot " + std::to_string(index + 1);
   const Connectivity& c = shot.connectivity;
   if (c.vertex_count == 0 || shot.frame_count == 0) return Status::invalid(name + " is empty");
@@ -21,7 +22,7 @@ Status check_shot(const Shot& shot, size_t index) {
   }
   for (const float x : shot.positions) {
     if (!std::isfinite(x)) return Status::invalid(name + " has a position that is not finite");
-    if (std::abs(x) > kLargestPosition) {
+    if (!lossless && std::abs(x) > kLargestPosition) {
       return Status::invalid(name + " has a position beyond 1e36; scale the input down");
     }
   }
@@ -30,6 +31,7 @@ Status check_shot(const Shot& shot, size_t index) {
 
 Status check(const Sequence& sequence, const EncodeOptions& options) {
   if (sequence.shots.empty()) return Status::invalid("there is nothing to encode");
+  const bool lossless = options.target == Target::kLossless;
   if (!(options.target_value > 0) || !std::isfinite(options.target_value)) {
     return Status::invalid("the target must be a number above 0");
   }
@@ -40,7 +42,7 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   if (options.open_groups > kMostOpenGroups) return Status::invalid("open_groups is above 63");
   if (options.regions > 1024) return Status::invalid("regions is above 1024");
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
-    if (Status s = check_shot(sequence.shots[i], i); !s.ok()) return s;
+    if (Status s = check_shot(sequence.shots[i], lossless, i); !s.ok()) return s;
   }
   return {};
 }
@@ -52,6 +54,7 @@ Status encode(const Sequence& sequence, const EncodeOptions& options, std::vecto
   out.clear();
   stats = {};
   if (Status s = check(sequence, options); !s.ok()) return s;
+  if (options.target == Target::kLossless) return encode_lossless(sequence, options, out, stats);
   return SequenceEncoder(sequence, options).run(out, stats);
 }
 

@@ -18,6 +18,7 @@ enum class Target {
   kMaxError,  ///< largest error of any coordinate, in units of the input, never exceeded
   kBpvf,      ///< bits per vertex and frame, the whole file counted
   kSize,      ///< bytes of the file, never exceeded
+  kLossless,  ///< every bit of every position; target_value, profile and regions do not matter
 };
 
 inline constexpr int kLeastEffort = 1;
@@ -56,8 +57,8 @@ struct EncodeStats {
   std::vector<std::string> notes;  ///< e.g. where a new reference starts
 };
 
-/// Encodes `sequence` (at least one frame and one vertex, all values finite and below 1e36). On
-/// failure `out` is empty.
+/// Encodes `sequence` (at least one frame and one vertex, all values finite and, unless lossless,
+/// below 1e36). On failure `out` is empty.
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
               EncodeStats& stats);
 

@@ -78,6 +78,8 @@ double SequenceEncoder::excess_of(const Attempt& a) const {
     case Target::kSize:
       measured = static_cast<double>(a.bytes.size());
       break;
+    case Target::kLossless:  // see encode_lossless
+      break;
   }
   return measured > 0 ? std::log(measured / options_.target_value) : -1e3;
 }

@@ -11,7 +11,7 @@ namespace {
 
 struct Bounds {
   float low[3];
-  float side;  ///< longest
+  double side;  ///< longest
 };
 
 Bounds bounds_of(std::span<const float> xyz) {
@@ -21,7 +21,8 @@ Bounds bounds_of(std::span<const float> xyz) {
     out.low[i % 3] = std::min(out.low[i % 3], xyz[i]);
     high[i % 3] = std::max(high[i % 3], xyz[i]);
   }
-  for (int a = 0; a < 3; ++a) out.side = std::max(out.side, high[a] - out.low[a]);
+  for (int a = 0; a < 3; ++a)
+    out.side = std::max(out.side, static_cast<double>(high[a]) - static_cast<double>(out.low[a]));
   return out;
 }
 
@@ -42,7 +43,7 @@ Status make_surface_context(const Shot& shot, uint32_t bits, bool reorder, Surfa
   const std::span<const float> first = shot.frame(0);
   const Bounds bounds = bounds_of(first);
   std::copy(std::begin(bounds.low), std::end(bounds.low), out.header.origin);
-  out.header.grid_step = bounds.side / static_cast<float>((1u << bits) - 1);
+  out.header.grid_step = static_cast<float>(bounds.side / ((1u << bits) - 1));
   const std::vector<int32_t> grid = snap(first, out.header);
   Status status = encode_reference(shot.connectivity, grid, {.reorder = reorder}, out.bytes,
                                    out.mesh, out.input_of);

@@ -19,7 +19,8 @@ namespace {
 constexpr uint64_t kMemory = 8u << 20;
 constexpr uint64_t kSlack = 1u << 20;  // models, headers and names
 
-constexpr Profile kProfiles[] = {Profile::kMain, Profile::kFast, Profile::kThesis};
+constexpr Profile kProfiles[] = {Profile::kMain, Profile::kFast, Profile::kThesis,
+                                 Profile::kLossless};
 
 Limits tight_limits() {
   return {.max_vertices = 2000, .max_faces = 4000, .max_frames = 100, .max_memory = kMemory};
@@ -35,6 +36,7 @@ Bytes small_stream(Profile profile) {
   options.regions = 2;
   options.profile = profile;
   options.open_groups = 1;
+  if (profile == Profile::kLossless) options.target = Target::kLossless;
   return encode_or_fail(sequence, options).bytes;
 }
 

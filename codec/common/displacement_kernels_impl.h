@@ -1,0 +1,86 @@
+// Bodies of the displacement kernels, compiled once per instruction set behind kernels_impl.h.
+#pragma once
+
+#include "codec/common/displacement_kernels.h"
+#include "codec/common/kernels_impl.h"
+
+namespace reeb::REEB_KERNEL_NAMESPACE {
+
+namespace {
+
+constexpr double kKept = 507.0 / 512;      // of the normal equations, from frame to frame
+constexpr double kEnergyKept = 27.0 / 32;  // of the mean squared error
+constexpr double kInverseDeviation2 = 4;   // 1 / (prior standard deviation of a weight)^2
+constexpr double kLeastRidge = 0x1p-34;    // relative to the trace
+constexpr double kTinyRidge = 1e-100;      // where nothing has moved yet
+constexpr double kLargestWeight = 64;
+
+/// The terms of one axis, term i in y[i].
+inline void gather_terms(const DisplacementBatch& batch, const DisplacementFrame& frame,
+                         uint32_t axis, Lanes* y) {
+  for (uint32_t l = 0; l < kLanes; ++l) {
+    const uint32_t own = batch.self[l] * 4 + axis;
+    y[0][l] = static_cast<double>(frame.before[own]);
+    y[1][l] = static_cast<double>(frame.older[own]);
+  }
+  for (uint32_t i = kOwnTerms; i < batch.count; ++i) {
+    Lanes value{};
+    for (uint32_t l = 0; l < kLanes; ++l)
+      value[l] = static_cast<double>(frame.now[batch.neighbour[i][l] * 4 + axis]);
+    y[i] = value * batch.in_use[i];
+  }
+}
+
+void learn_displacement(DisplacementBatch& batch, const DisplacementFrame& frame) {
+  const uint32_t n = batch.count;
+  Lanes y[3][kMaxNeighbours];
+  Lanes d[3];
+  for (uint32_t a = 0; a < 3; ++a) {
+    gather_terms(batch, frame, a, y[a]);
+    for (uint32_t l = 0; l < kLanes; ++l)
+      d[a][l] = static_cast<double>(frame.now[batch.self[l] * 4 + a]);
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j <= i; ++j) {
+      Lanes& m = batch.matrix[packed(i, j)];
+      m = m * kKept + y[0][i] * y[0][j] + y[1][i] * y[1][j] + y[2][i] * y[2][j];
+    }
+    Lanes& g = batch.target[i];
+    g = g * kKept + y[0][i] * d[0] + y[1][i] * d[1] + y[2][i] * d[2];
+  }
+  Lanes error{};
+  for (uint32_t l = 0; l < kLanes; ++l) error[l] = frame.squared_error[batch.self[l]];
+  batch.energy = batch.energy * kEnergyKept + error * (1 - kEnergyKept);
+}
+
+void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]) {
+  const uint32_t n = batch.count;
+  Lanes a[kTriangle];
+  Lanes inverse[kMaxNeighbours];
+  Lanes w[kMaxNeighbours];
+  Lanes trace{};
+  for (uint32_t i = 0; i < n; ++i) trace += batch.matrix[packed(i, i)];
+  const Lanes by_error = batch.energy * kInverseDeviation2;
+  const Lanes by_trace = trace * kLeastRidge;
+  const Lanes ridge = (by_error > by_trace ? by_error : by_trace) + kTinyRidge;
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = batch.matrix[packed(i, j)];
+    const Lanes diagonal = ridge * batch.precision[i];
+    a[packed(i, i)] += diagonal;
+    w[i] = batch.target[i] + diagonal * batch.prior[i];
+  }
+  factorise(n, a, inverse);
+  substitute(n, a, inverse, w);
+  for (uint32_t i = 0; i < n; ++i) {
+    const Lanes zero{};
+    w[i] = w[i] < kLargestWeight && w[i] > -kLargestWeight ? w[i] : zero;
+    for (uint32_t l = 0; l < kLanes; ++l) out[l][i] = static_cast<float>(w[i][l]);
+  }
+}
+
+}  // namespace
+
+extern const DisplacementKernels kDisplacementKernels;
+const DisplacementKernels kDisplacementKernels = {learn_displacement, solve_displacement};
+
+}  // namespace reeb::REEB_KERNEL_NAMESPACE

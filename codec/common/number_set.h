@@ -1,0 +1,88 @@
+// The numbers that a coordinate may be, in order, each with an integer: what lossless coding
+// predicts and takes differences of.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace reeb {
+
+/// Either every binary32 value, or the decimals of `digits` significant digits and at most
+/// `decimals` places, each rounded to binary32: what text files hold.
+///
+/// The integer of a number x >= 0 is its rank, that of -x is -1 - rank; 0 and -0 differ.
+class NumberSet {
+ public:
+  static constexpr uint32_t kMaxDigits = 9;
+  static constexpr uint32_t kMaxDecimals = 22;
+  /// Ranks, and distances of two of them, stay below 2 to this power.
+  static constexpr uint32_t kRankBits = 40;
+
+  /// Every binary32 value.
+  NumberSet() = default;
+  /// Decimals; 1 <= digits <= kMaxDigits, decimals <= kMaxDecimals.
+  NumberSet(uint32_t digits, uint32_t decimals);
+
+  bool decimal() const { return digits_ > 0; }
+  uint32_t digits() const { return digits_; }
+  uint32_t decimals() const { return decimals_; }
+
+  /// The integer of the number next to x, which is finite; beyond binary32 the largest.
+  int64_t nearest(double x) const {
+    const bool negative = std::signbit(x);
+    const auto rank = static_cast<int64_t>(decimal() ? decimal_rank(negative ? -x : x)
+                                                     : binary_rank(negative ? -x : x));
+    return negative ? -1 - rank : rank;
+  }
+
+  /// The integer of a member, `found` false where x is none.
+  int64_t find(float x, bool& found) const {
+    const int64_t n = nearest(static_cast<double>(x));
+    found = valid(n) && std::bit_cast<uint32_t>(number(n)) == std::bit_cast<uint32_t>(x);
+    return n;
+  }
+
+  /// True where the integer is that of a finite number.
+  bool valid(int64_t n) const {
+    const int64_t rank = n < 0 ? -1 - n : n;
+    return rank < rank_end_;
+  }
+
+  /// The number of a valid integer.
+  float number(int64_t n) const {
+    const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
+    const float x =
+        decimal() ? decimal_number(rank) : std::bit_cast<float>(static_cast<uint32_t>(rank));
+    return n < 0 ? -x : x;
+  }
+
+  /// log2 of the distance between neighbours near a valid integer, in 1/8, up to a constant.
+  int32_t spacing(int64_t n) const {
+    const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
+    return decimal() ? decade(rank) * 213 / 8 : 8 * static_cast<int32_t>(rank >> 23);
+  }
+
+ private:
+  static constexpr int64_t kBinaryEnd = 0x7F800000;
+
+  static uint64_t binary_rank(double x) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return std::bit_cast<uint32_t>(static_cast<float>(x < kLargest ? x : kLargest));
+  }
+  uint64_t decimal_rank(double x) const;
+  float decimal_number(uint64_t rank) const;
+  /// How often the distance has grown tenfold up to a rank.
+  int32_t decade(uint64_t rank) const {
+    return rank < first_ ? 0 : static_cast<int32_t>((rank - first_) / later_) + 1;
+  }
+
+  uint32_t digits_ = 0;
+  uint32_t decimals_ = 0;
+  int64_t rank_end_ = kBinaryEnd;
+  uint64_t first_ = 0;  ///< ranks of the first decade, 10^digits
+  uint64_t later_ = 1;  ///< ranks of each later decade, 9 * 10^(digits - 1)
+};
+
+}  // namespace reeb

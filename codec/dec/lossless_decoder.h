@@ -1,0 +1,13 @@
+// Decoder of one lossless group.
+#pragma once
+
+#include "codec/common/exact_frames.h"
+#include "codec/dec/group_decoder.h"
+
+namespace reeb {
+
+/// Decodes all frames of a group of the lossless profile.
+Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surface,
+                             unsigned threads, ExactFrames& out);
+
+}  // namespace reeb

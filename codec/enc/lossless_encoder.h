@@ -1,0 +1,23 @@
+// Encoder of one lossless group.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/common/exact_frames.h"
+#include "codec/enc/surface_context.h"
+
+namespace reeb {
+
+struct LosslessGroup {
+  uint32_t frame_count = 0;
+  uint32_t stored_count = 0;          ///< frames that are not copies
+  std::vector<uint8_t> coefficients;  ///< range code
+  std::vector<uint8_t> basis;         ///< bits at even odds
+};
+
+/// Encodes at least one frame, [row of the surface graph][xyz], all values finite.
+LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
+                                    unsigned threads);
+
+}  // namespace reeb
