@@ -58,8 +58,9 @@ class Parser {
   Status take_group(const Chunk& chunk);
   Status check_group(const Chunk& chunk, const GroupHeader& header) const;
   Status take_seek_table(const Chunk& chunk);
-  Status check_complete() const;
+  Status check_complete();
   void count(const char* section, uint64_t bytes);
+  bool open_ended() const { return (out_.header.flags & SequenceHeader::kOpenEnded) != 0; }
   bool intact() const { return out_.damaged.empty() && !out_.truncated; }
   uint64_t frames_end() const {
     if (out_.groups.empty()) return 0;
@@ -111,7 +112,7 @@ Status Parser::read_sequence_header() {
   }
   if (!chunk.crc_ok) return corrupt(chunk, "wrong checksum");
   if (Status s = read_whole(chunk, out_.header); !s.ok()) return s;
-  if (out_.header.total_frames > limits_.max_frames) {
+  if (!open_ended() && out_.header.total_frames > limits_.max_frames) {
     return Status::limit(std::to_string(out_.header.total_frames) + " frames, more than allowed");
   }
   offset_ += chunk.size;
@@ -250,6 +251,9 @@ Status Parser::take_reference(const Chunk& chunk) {
 }
 
 Status Parser::check_group(const Chunk& chunk, const GroupHeader& h) const {
+  if (open_ended() && uint64_t{h.first_frame} + h.frame_count > limits_.max_frames) {
+    return Status::limit("more frames than allowed");
+  }
   if (uint64_t{h.first_frame} + h.frame_count > out_.header.total_frames) {
     return corrupt(chunk, "frames past the end of the sequence");
   }
@@ -300,7 +304,16 @@ Status Parser::take_seek_table(const Chunk& chunk) {
   return {};
 }
 
-Status Parser::check_complete() const {
+Status Parser::check_complete() {
+  if (open_ended()) {
+    if (intact() &&
+        (out_.groups.empty() || out_.references.back().header.first_frame == frames_end())) {
+      return Status::corrupt("the file ends with a shot without frames");
+    }
+    out_.header.total_frames = static_cast<uint32_t>(frames_end());
+    out_.header.shot_count = static_cast<uint32_t>(out_.references.size());
+    return {};
+  }
   if (!intact()) return {};
   if (out_.references.size() != out_.header.shot_count ||
       frames_end() != out_.header.total_frames) {

@@ -17,11 +17,13 @@ inline constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 
 /// Chunk `HEAD`.
 struct SequenceHeader {
+  /// total_frames and shot_count are upper bounds: the file was written as its frames arrived.
+  static constexpr uint8_t kOpenEnded = 1;
   uint32_t total_frames = 1;
   uint32_t shot_count = 1;  ///< runs of frames with one connectivity
   double frame_rate = 0;    ///< frames per second; 0 where unknown
   double start_time = 0;    ///< time of the first frame, in frames
-  uint8_t flags = 0;        ///< reserved
+  uint8_t flags = 0;
   bool operator==(const SequenceHeader&) const = default;
 };
 
@@ -31,7 +33,7 @@ void describe(V& v, SequenceHeader& h) {
   v.uv("shot_count", h.shot_count, 1, h.total_frames);
   v.f64("frame_rate", h.frame_rate, 0, 1e9);
   v.f64("start_time", h.start_time, -1e15, 1e15);
-  v.flags("flags", h.flags, 0);
+  v.flags("flags", h.flags, SequenceHeader::kOpenEnded);
 }
 
 /// Front of chunk `REFM`; a MeshHeader and its sections follow.
@@ -59,13 +61,14 @@ void describe(V& v, ReferenceHeader& h) {
 /// Front of a coded reference mesh; its sections follow in this order and fill the rest.
 struct MeshHeader {
   static constexpr uint8_t kOrderKept = 1;      ///< vertices come back in the order of the input
-  static constexpr uint8_t kFaceOrderKept = 2;  ///< reserved for lossless connectivity
+  static constexpr uint8_t kFaceOrderKept = 2;  ///< faces, too, and their first corners
   uint32_t vertex_count = 1;
   uint32_t face_count = 0;
   uint8_t flags = 0;
   uint64_t draco_bytes = 0;  ///< Draco's part; 0 where no face is left to it
   uint64_t rest_bytes = 0;   ///< what Draco does not carry
   uint64_t order_bytes = 0;  ///< permutation to the order of the input
+  uint64_t face_bytes = 0;   ///< order and first corners of the faces
   bool operator==(const MeshHeader&) const = default;
 };
 
@@ -73,10 +76,13 @@ template <class V>
 void describe(V& v, MeshHeader& h) {
   v.uv("vertex_count", h.vertex_count, 1, kMaxVertices);
   v.uv("face_count", h.face_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, MeshHeader::kOrderKept);
+  v.flags("flags", h.flags, MeshHeader::kOrderKept | MeshHeader::kFaceOrderKept);
   v.uv("draco_bytes", h.draco_bytes, 0, kMaxUint32);
   v.uv("rest_bytes", h.rest_bytes, 0, kMaxUint32);
   v.uv("order_bytes", h.order_bytes, 0, kMaxUint32);
+  if ((h.flags & MeshHeader::kFaceOrderKept) != 0) {
+    v.uv("face_bytes", h.face_bytes, 0, kMaxUint32);
+  }
 }
 
 enum class Profile : uint8_t {
@@ -89,6 +95,7 @@ enum class Profile : uint8_t {
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
 struct GroupHeader {
   static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
+  static constexpr uint8_t kQuick = 4;      ///< lossless: the method that decodes quicker
   static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
   uint32_t first_frame = 0;                 ///< in the sequence
   uint32_t frame_count = 1;
@@ -128,7 +135,8 @@ void describe(V& v, GroupHeader& h) {
     v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
   }
   if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, lossless ? 0 : GroupHeader::kContinues | GroupHeader::kCorrected);
+  v.flags("flags", h.flags,
+          lossless ? GroupHeader::kQuick : GroupHeader::kContinues | GroupHeader::kCorrected);
   if (!lossless) v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);

@@ -14,12 +14,11 @@ inline constexpr uint32_t kOwnTerms = 2;
 
 /// Normal equations of eight rows.
 struct alignas(64) DisplacementBatch {
-  Lanes matrix[kTriangle];          ///< decaying sum of y y^T
-  Lanes target[kMaxNeighbours];     ///< decaying sum of y d
-  Lanes prior[kMaxNeighbours];      ///< weights expected before anything is learned
-  Lanes precision[kMaxNeighbours];  ///< of that expectation, relative
-  Lanes in_use[kMaxNeighbours];     ///< 1 where there is a term, 0 for padding
-  Lanes energy;                     ///< decaying mean squared error of the prediction
+  Lanes matrix[kTriangle];       ///< decaying sum of y y^T
+  Lanes target[kMaxNeighbours];  ///< decaying sum of y d
+  Lanes prior[kMaxNeighbours];   ///< weights expected before anything is learned
+  Lanes in_use[kMaxNeighbours];  ///< 1 where there is a term, 0 for padding
+  Lanes energy;                  ///< decaying mean squared error of the prediction
   uint32_t neighbour[kMaxNeighbours][kLanes];
   uint32_t self[kLanes];
   uint32_t count = 0;  ///< largest number of terms among the eight

@@ -8,11 +8,11 @@ namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
 
-constexpr double kKept = 507.0 / 512;      // of the normal equations, from frame to frame
-constexpr double kEnergyKept = 27.0 / 32;  // of the mean squared error
-constexpr double kInverseDeviation2 = 4;   // 1 / (prior standard deviation of a weight)^2
-constexpr double kLeastRidge = 0x1p-34;    // relative to the trace
-constexpr double kTinyRidge = 1e-100;      // where nothing has moved yet
+constexpr double kKept = 507.0 / 512;       // of the normal equations, from frame to frame
+constexpr double kEnergyKept = 0.25;        // of the mean squared error
+constexpr double kInverseVariance = 0.125;  // of a weight, as far as its prior knows
+constexpr double kLeastRidge = 0x1p-34;     // relative to the trace
+constexpr double kTinyRidge = 1e-100;       // where nothing has moved yet
 constexpr double kLargestWeight = 64;
 
 /// The terms of one axis, term i in y[i].
@@ -60,14 +60,13 @@ void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]
   Lanes w[kMaxNeighbours];
   Lanes trace{};
   for (uint32_t i = 0; i < n; ++i) trace += batch.matrix[packed(i, i)];
-  const Lanes by_error = batch.energy * kInverseDeviation2;
+  const Lanes by_error = batch.energy * kInverseVariance;
   const Lanes by_trace = trace * kLeastRidge;
   const Lanes ridge = (by_error > by_trace ? by_error : by_trace) + kTinyRidge;
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = batch.matrix[packed(i, j)];
-    const Lanes diagonal = ridge * batch.precision[i];
-    a[packed(i, i)] += diagonal;
-    w[i] = batch.target[i] + diagonal * batch.prior[i];
+    a[packed(i, i)] += ridge;
+    w[i] = batch.target[i] + ridge * batch.prior[i];
   }
   factorise(n, a, inverse);
   substitute(n, a, inverse, w);

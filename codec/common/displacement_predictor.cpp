@@ -14,18 +14,12 @@ struct DisplacementPredictor::Batches {
 
 namespace {
 
-constexpr uint32_t kMaxTerms = kMaxNeighbours - kOwnTerms;  ///< of neighbours
-constexpr double kOwnPrecision = 0.3;
 constexpr double kAloneWeight = 0.8;  ///< of the last displacement where there is no neighbour
+constexpr uint32_t kFirstFrames = 8;  ///< that are all learned from
 constexpr float kFarthest = 1e37f;    ///< displacements are cut there: sums stay finite
 
-uint32_t terms_of(const PredictionGraph::Row& row) {
-  return std::min<uint32_t>(row.count, kMaxTerms);
-}
-
-void init_lane(DisplacementBatch& batch, uint32_t lane, uint32_t r,
+void init_lane(DisplacementBatch& batch, uint32_t lane, uint32_t r, uint32_t terms,
                const PredictionGraph::Row& row) {
-  const uint32_t terms = terms_of(row);
   batch.self[lane] = r;
   batch.count = std::max(batch.count, kOwnTerms + terms);
   for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
@@ -35,7 +29,6 @@ void init_lane(DisplacementBatch& batch, uint32_t lane, uint32_t r,
     batch.neighbour[i][lane] = !own && used ? row.neighbour[n] : r;
     batch.in_use[i][lane] = used ? 1.0 : 0.0;
     batch.prior[i][lane] = !own && used ? static_cast<double>(row.prior[n]) : 0.0;
-    batch.precision[i][lane] = own ? kOwnPrecision : 1.0;
   }
   if (terms == 0) batch.prior[0][lane] = kAloneWeight;
 }
@@ -43,8 +36,10 @@ void init_lane(DisplacementBatch& batch, uint32_t lane, uint32_t r,
 }  // namespace
 
 DisplacementPredictor::DisplacementPredictor(const PredictionGraph& graph,
-                                             const std::vector<float>& start, unsigned threads)
+                                             const std::vector<float>& start,
+                                             const DisplacementOptions& options, unsigned threads)
     : graph_(graph),
+      options_(options),
       threads_(threads),
       batches_(std::make_unique<Batches>()),
       weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f),
@@ -55,7 +50,7 @@ DisplacementPredictor::DisplacementPredictor(const PredictionGraph& graph,
   for (uint32_t r = 0; r < batches_->items.size() * kLanes; ++r) {
     // Lanes past the end repeat the last row; their results are dropped.
     const uint32_t row = std::min(r, graph.size() - 1);
-    init_lane(batches_->items[r / kLanes], r % kLanes, row, graph.rows[row]);
+    init_lane(batches_->items[r / kLanes], r % kLanes, row, terms(row), graph.rows[row]);
   }
   jump(start);
   solve();
@@ -73,7 +68,7 @@ void DisplacementPredictor::jump(const std::vector<float>& frame) {
 std::array<double, 3> DisplacementPredictor::predict(uint32_t row) const {
   const float* w = &weights_[size_t{row} * kMaxNeighbours];
   const auto& neighbour = graph_.rows[row].neighbour;
-  const uint32_t terms = terms_of(graph_.rows[row]);
+  const uint32_t count = terms(row);
   double sum[4] = {0, 0, 0, 0};  // four, so that vector units may take them all
   const auto add = [&](const float* moved, float weight) {
     for (uint32_t a = 0; a < 4; ++a)
@@ -81,7 +76,7 @@ std::array<double, 3> DisplacementPredictor::predict(uint32_t row) const {
   };
   add(&moved_[1][size_t{row} * 4], w[0]);
   add(&moved_[2][size_t{row} * 4], w[1]);
-  for (uint32_t i = 0; i < terms; ++i) add(&moved_[0][size_t{neighbour[i]} * 4], w[kOwnTerms + i]);
+  for (uint32_t i = 0; i < count; ++i) add(&moved_[0][size_t{neighbour[i]} * 4], w[kOwnTerms + i]);
   add(&position_[size_t{row} * 4], 1.0f);
   return {sum[0], sum[1], sum[2]};
 }
@@ -100,20 +95,28 @@ void DisplacementPredictor::place(uint32_t row, const float xyz[3],
   squared_error_[row] = square;
 }
 
+// The first frame starts from the reference mesh: what it is away from there is no motion.
+bool DisplacementPredictor::learns() const {
+  return frames_ > 0 && (frames_ < kFirstFrames || frames_ % options_.period == 0);
+}
+
 void DisplacementPredictor::finish_frame() {
-  // The first frame starts from the reference mesh: what it is away from there is no motion.
-  if (frames_ > 0) {
-    const DisplacementFrame frame = {moved_[0].data(), moved_[1].data(), moved_[2].data(),
-                                     squared_error_.data()};
-    const auto count = static_cast<uint32_t>(batches_->items.size());
-    parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
-      for (uint32_t b = begin; b < end; ++b) batches_->kernels.learn(batches_->items[b], frame);
-    });
+  if (learns()) {
+    learn();
     solve();
-    std::swap(moved_[1], moved_[2]);
-    std::swap(moved_[0], moved_[1]);
   }
-  ++frames_;
+  if (frames_++ == 0) return;
+  std::swap(moved_[1], moved_[2]);
+  std::swap(moved_[0], moved_[1]);
+}
+
+void DisplacementPredictor::learn() {
+  const DisplacementFrame frame = {moved_[0].data(), moved_[1].data(), moved_[2].data(),
+                                   squared_error_.data()};
+  const auto count = static_cast<uint32_t>(batches_->items.size());
+  parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t b = begin; b < end; ++b) batches_->kernels.learn(batches_->items[b], frame);
+  });
 }
 
 void DisplacementPredictor::solve() {

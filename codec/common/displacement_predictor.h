@@ -2,6 +2,7 @@
 // already, with weights that follow each vertex through time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -11,18 +12,23 @@
 
 namespace reeb {
 
+struct DisplacementOptions {
+  uint32_t neighbours = 14;  ///< at most so many predict a row, 0 .. 14
+  uint32_t period = 1;       ///< after its first frames it learns from every period-th only
+};
+
 /// Rows are those of a surface graph. For every frame: `predict` and `place` row by row, then
 /// `finish_frame`.
 ///
-/// x_t(r) is predicted as x_t-1(r) + sum_i w_i y_i, the y being displacements x_t - x_t-1 of up to
-/// 14 neighbours and the row's own of the two frames before. The weights minimise the decaying sum
+/// x_t(r) is predicted as x_t-1(r) + sum_i w_i y_i, the y being displacements x_t - x_t-1 of
+/// neighbours and the row's own of the two frames before. The weights minimise the decaying sum
 /// of squared errors of all frames and axes plus a ridge towards the ring's mean displacement. All
 /// of it in binary64, in the order that spec/lossless.md fixes.
 class DisplacementPredictor {
  public:
   /// `graph` must outlive the predictor; `start`: [row][xyz], the frame before the first.
   DisplacementPredictor(const PredictionGraph& graph, const std::vector<float>& start,
-                        unsigned threads);
+                        const DisplacementOptions& options, unsigned threads);
   ~DisplacementPredictor();
   DisplacementPredictor(const DisplacementPredictor&) = delete;
   DisplacementPredictor& operator=(const DisplacementPredictor&) = delete;
@@ -40,9 +46,15 @@ class DisplacementPredictor {
 
  private:
   struct Batches;
+  uint32_t terms(uint32_t row) const {
+    return std::min<uint32_t>(graph_.rows[row].count, options_.neighbours);
+  }
+  bool learns() const;
+  void learn();
   void solve();
 
   const PredictionGraph& graph_;
+  DisplacementOptions options_;
   unsigned threads_;
   std::unique_ptr<Batches> batches_;
   std::vector<float> weights_;               ///< [row][kMaxNeighbours]

@@ -6,6 +6,7 @@ namespace reeb {
 
 namespace {
 
+constexpr DisplacementOptions kQuickPrediction = {.neighbours = 6, .period = 4};
 constexpr uint32_t kNear = 4;            ///< neighbours that make the contexts
 constexpr uint32_t kRunning = 16;        ///< rows over which the running mean fades
 constexpr int32_t kUsualSize = 8 * 140;  ///< expected before anything is known
@@ -13,8 +14,12 @@ constexpr int32_t kUsualSize = 8 * 140;  ///< expected before anything is known
 }  // namespace
 
 FrameCoder::FrameCoder(const PredictionGraph& graph, const std::vector<float>& start,
-                       const NumberSets& sets, unsigned threads)
-    : graph_(graph), sets_(sets), predictor_(graph, start, threads), traces_(graph.size()) {
+                       const NumberSets& sets, bool quick, unsigned threads)
+    : graph_(graph),
+      sets_(sets),
+      predictor_(graph, start, quick ? kQuickPrediction : DisplacementOptions(), threads),
+      quick_(quick),
+      traces_(graph.size()) {
   for (Trace& t : traces_) {
     t.size.fill(kUsualSize);
     t.older.fill(kUsualSize);

@@ -19,9 +19,10 @@ using NumberSets = std::array<NumberSet, 3>;
 
 class FrameCoder {
  public:
+  /// `quick`: fewer neighbours that are learned from less often, and no mixing.
   /// `graph` must outlive the coder; `start`: [row][xyz] of the reference mesh, finite.
   FrameCoder(const PredictionGraph& graph, const std::vector<float>& start, const NumberSets& sets,
-             unsigned threads);
+             bool quick, unsigned threads);
 
   /// Codes the next frame, [row][xyz]: reads it with encoders, writes it with decoders. False when
   /// a decoder meets what no encoder writes.
@@ -77,7 +78,9 @@ class FrameCoder {
     bool member = true;
     int64_t n = 0;
     if constexpr (!kDecodes<Bits>) n = set.find(x, member) - guess;
-    if (!model_.code(bits, raw, c, !member, n)) {
+    const bool difference = quick_ ? quick_model_.code(bits, raw, c, !member, n)
+                                   : model_.code(bits, raw, c, !member, n);
+    if (!difference) {
       x = std::bit_cast<float>(raw.code(std::bit_cast<uint32_t>(x), 32));
       n = 0;
       if (!std::isfinite(x)) return false;
@@ -108,7 +111,9 @@ class FrameCoder {
   const PredictionGraph& graph_;
   NumberSets sets_;
   DisplacementPredictor predictor_;
+  bool quick_;
   RankModel model_;
+  QuickRankModel quick_model_;
   AdaptiveBit still_[(kLongStill + 1) * 3 * 3];
   std::vector<Trace> traces_;
   std::array<int32_t, 3> ring_{};  ///< of the row in hand: mean size over the neighbours, by axis

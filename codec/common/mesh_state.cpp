@@ -25,4 +25,15 @@ std::vector<uint32_t> collect_triangles(const MeshState& state) {
   return out;
 }
 
+Connectivity collect_faces(const MeshState& state, const std::vector<uint32_t>& output_index) {
+  Connectivity out;
+  out.vertex_count = state.vertex_count;
+  out.face_sizes = state.joined.sizes;
+  out.face_sizes.insert(out.face_sizes.end(), state.listed.sizes.begin(), state.listed.sizes.end());
+  for (const uint32_t point : state.joined.corners)
+    out.corners.push_back(output_index[state.vertex_of_point[point]]);
+  for (const uint32_t vertex : state.listed.corners) out.corners.push_back(output_index[vertex]);
+  return out;
+}
+
 }  // namespace reeb

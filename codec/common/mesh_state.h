@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codec/common/connectivity.h"
+#include "codec/common/sequence.h"
 
 namespace reeb {
 
@@ -26,6 +27,9 @@ struct MeshState {
 /// Triangles of a complete state in coding numbering: Draco's, then the fans of the listed faces;
 /// those with two equal corners are left out.
 std::vector<uint32_t> collect_triangles(const MeshState& state);
+
+/// The faces of a complete state in the order of its parts, corners renamed by `output_index`.
+Connectivity collect_faces(const MeshState& state, const std::vector<uint32_t>& output_index);
 
 /// Entry i of a list that is either complete or i entries long.
 template <class T>

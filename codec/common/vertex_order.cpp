@@ -7,11 +7,7 @@
 #include "codec/common/point_predictor.h"
 
 namespace reeb {
-namespace {
-
-constexpr uint32_t kScale = 8 << 8;  // one step of the error models is one free index
-
-}  // namespace
+// namespace
 
 FreeIndices::FreeIndices(uint32_t count) : tree_(size_t{count} + 1), count_(count) {
   for (uint32_t i = 1; i < tree_.size(); ++i) tree_[i] = i & (0 - i);

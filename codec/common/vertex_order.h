@@ -46,7 +46,8 @@ class OrderPredictor {
     kLastParallelogram = 8,
     kKindCount
   };
-  static constexpr uint32_t kMemory = 512;  ///< observations, see GuessMixture
+  static constexpr uint32_t kMemory = 512;    ///< observations, see GuessMixture
+  static constexpr uint32_t kScale = 8 << 8;  ///< a step of the error models is one free index
 
   /// `triangles`: three coding vertices each.
   OrderPredictor(uint32_t vertex_count, std::span<const uint32_t> triangles);

@@ -21,7 +21,7 @@ Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surf
   FrameCoder coder(surface.surface.graph,
                    start_positions(GridPoints(surface.grid), surface.surface.order, surface.origin,
                                    surface.grid_step),
-                   sets, threads);
+                   sets, (chunk.header.flags & GroupHeader::kQuick) != 0, threads);
   RepeatSyntax repeats;
   out = {};
   while (out.frame_count() < chunk.header.frame_count) {

@@ -6,6 +6,7 @@
 #include "bitstream/bytes.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
+#include "codec/common/face_order.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr uint64_t kMaxCornersPerFace = 8;  // on average, of the faces the limits allow
 
 struct Sections {
-  std::span<const uint8_t> draco, rest, order;
+  std::span<const uint8_t> draco, rest, order, faces;
 };
 
 Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshHeader& h,
@@ -28,6 +29,7 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
   sections.draco = in.take(h.draco_bytes);
   sections.rest = in.take(h.rest_bytes);
   sections.order = in.take(h.order_bytes);
+  sections.faces = in.take(h.face_bytes);
   if (!in.ok() || in.remaining() != 0) return Status::corrupt("mesh: sections do not fill it");
   if (std::max(h.vertex_count, h.face_count) > kElementsPerByte * bytes.size()) {
     return Status::corrupt("mesh: more vertices or faces than its bytes can hold");
@@ -51,18 +53,6 @@ Status decode_state(const Sections& sections, const Limits& limits, uint64_t max
   return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces);
 }
 
-void collect_faces(const MeshState& state, const std::vector<uint32_t>& output_index,
-                   Connectivity& out) {
-  out.vertex_count = state.vertex_count;
-  out.face_sizes = state.joined.sizes;
-  out.face_sizes.insert(out.face_sizes.end(), state.listed.sizes.begin(), state.listed.sizes.end());
-  out.corners.clear();
-  for (const uint32_t point : state.joined.corners) {
-    out.corners.push_back(output_index[state.vertex_of_point[point]]);
-  }
-  for (const uint32_t vertex : state.listed.corners) out.corners.push_back(output_index[vertex]);
-}
-
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
                     std::span<const uint32_t> triangles, std::vector<uint32_t>& output_index) {
   if ((h.flags & MeshHeader::kOrderKept) == 0) {
@@ -73,6 +63,17 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
   }
   BinaryDecoder coder(bytes);
   return code_vertex_order(coder, h.vertex_count, triangles, output_index);
+}
+
+/// Puts the faces into the order of the input, where the stream keeps it.
+Status decode_face_order(const MeshHeader& h, std::span<const uint8_t> bytes, Connectivity& faces) {
+  if ((h.flags & MeshHeader::kFaceOrderKept) == 0) return {};
+  BinaryDecoder coder(bytes);
+  const FaceOrderContext context(faces);
+  FaceOrder order;
+  if (Status s = code_face_order(coder, context, order); !s.ok()) return s;
+  faces = arrange_faces(context, order, h.vertex_count);
+  return {};
 }
 
 }  // namespace
@@ -92,9 +93,9 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {
     return s;
   }
-  collect_faces(state, out.output_index, out.connectivity);
+  out.connectivity = collect_faces(state, out.output_index);
   out.grid = std::move(state.grid);
-  return {};
+  return decode_face_order(h, sections.faces, out.connectivity);
 }
 
 }  // namespace reeb

@@ -9,7 +9,7 @@
 namespace reeb {
 
 LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
-                                    unsigned threads) {
+                                    bool quick, unsigned threads) {
   BinaryEncoder bits;
   RawBitWriter raw;
   NumberSets sets;
@@ -18,7 +18,7 @@ LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFr
   FrameCoder coder(surface.surface.graph,
                    start_positions(surface.points(), surface.surface.order, surface.header.origin,
                                    surface.header.grid_step),
-                   sets, threads);
+                   sets, quick, threads);
   RepeatSyntax repeats;
   std::vector<float> frame;
   for (uint32_t t = 0; t < frames.frame_count(); ++t) {

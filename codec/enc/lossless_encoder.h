@@ -16,8 +16,9 @@ struct LosslessGroup {
   std::vector<uint8_t> basis;         ///< bits at even odds
 };
 
+/// `quick` trades rate for speed of both directions.
 /// Encodes at least one frame, [row of the surface graph][xyz], all values finite.
 LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
-                                    unsigned threads);
+                                    bool quick, unsigned threads);
 
 }  // namespace reeb

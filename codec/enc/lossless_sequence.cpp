@@ -7,6 +7,8 @@ namespace reeb {
 
 namespace {
 
+constexpr int kQuickEffort = 3;  ///< up to this effort the quick method is used
+
 std::vector<MetadataEntry> metadata_of(const Sequence& sequence) {
   std::vector<MetadataEntry> out;
   for (const auto& [key, value] : sequence.metadata) out.push_back({key, value});
@@ -47,11 +49,12 @@ EncodeStats stats_of(const Sequence& sequence, const std::vector<uint8_t>& bytes
 Status encode_lossless(const Sequence& sequence, const EncodeOptions& options,
                        std::vector<uint8_t>& out, EncodeStats& stats) {
   std::vector<uint8_t> bytes;
-  StreamEncoder encoder({options.group_length, options.reorder, options.threads},
-                        [&](std::span<const uint8_t> part) {
-                          bytes.insert(bytes.end(), part.begin(), part.end());
-                          return true;
-                        });
+  StreamEncoder encoder(
+      {options.group_length, options.reorder, options.effort <= kQuickEffort, options.threads},
+      [&](std::span<const uint8_t> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        return true;
+      });
   SequenceHeader header;
   header.total_frames = sequence.frame_count();
   header.shot_count = static_cast<uint32_t>(sequence.shots.size());

@@ -8,12 +8,14 @@
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/connectivity.h"
+#include "codec/common/face_order.h"
 #include "codec/common/faces.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
 #include "codec/dec/reference_decoder.h"
 #include "codec/enc/draco_connectivity_encoder.h"
+#include "codec/enc/face_matching.h"
 #include "codec/enc/face_set.h"
 #include "entropy/range_coder.h"
 
@@ -184,8 +186,21 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
   return status;
 }
 
-Status write_mesh(const DracoPlan& plan, const std::vector<uint32_t>& coding,
-                  const ReferenceOptions& options, MeshState& state, std::vector<uint8_t>& bytes) {
+Status write_face_order(const Connectivity& input, const MeshState& state,
+                        const std::vector<uint32_t>& coding, std::vector<uint8_t>& bytes) {
+  std::vector<uint32_t> output_index(coding.size());
+  for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
+  const Connectivity faces = collect_faces(state, output_index);
+  FaceOrder order = match_faces(faces, input);
+  BinaryEncoder coder;
+  Status status = code_face_order(coder, FaceOrderContext(faces), order);
+  bytes = coder.finish();
+  return status;
+}
+
+Status write_mesh(const Connectivity& input, const DracoPlan& plan,
+                  const std::vector<uint32_t>& coding, const ReferenceOptions& options,
+                  MeshState& state, std::vector<uint8_t>& bytes) {
   BinaryEncoder coder;
   if (Status s = code_rest(coder, state, std::numeric_limits<uint64_t>::max()); !s.ok()) return s;
   std::vector<uint8_t> rest = coder.finish();
@@ -198,14 +213,18 @@ Status write_mesh(const DracoPlan& plan, const std::vector<uint32_t>& coding,
   if (!options.reorder) {
     if (Status s = write_order(state, coding, order); !s.ok()) return s;
   }
-  const MeshHeader header = {state.vertex_count,
-                             state.face_count,
-                             options.reorder ? uint8_t{0} : MeshHeader::kOrderKept,
-                             plan.encoding.middle.size(),
-                             rest.size(),
-                             order.size()};
+  const bool keeps_faces = options.face_order && !options.reorder;
+  std::vector<uint8_t> faces;
+  if (keeps_faces) {
+    if (Status s = write_face_order(input, state, coding, faces); !s.ok()) return s;
+  }
+  const auto flags = static_cast<uint8_t>((options.reorder ? 0 : MeshHeader::kOrderKept) |
+                                          (keeps_faces ? MeshHeader::kFaceOrderKept : 0));
+  const MeshHeader header = {
+      state.vertex_count, state.face_count, flags,       plan.encoding.middle.size(),
+      rest.size(),        order.size(),     faces.size()};
   if (Status s = write_header(header, "mesh header", bytes); !s.ok()) return s;
-  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &order};
+  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &order, &faces};
   for (const auto* part : parts) bytes.insert(bytes.end(), part->begin(), part->end());
   return {};
 }
@@ -213,7 +232,9 @@ Status write_mesh(const DracoPlan& plan, const std::vector<uint32_t>& coding,
 // Positions and faces of `decoded` are those of the input, vertices renamed by `coding` where the
 // order is dropped.
 bool survives(const Connectivity& input, std::span<const int32_t> grid,
-              const std::vector<uint32_t>& coding, bool reorder, const ReferenceMesh& decoded) {
+              const std::vector<uint32_t>& coding, const ReferenceOptions& options,
+              const ReferenceMesh& decoded) {
+  const bool reorder = options.reorder;
   Connectivity expected = input;
   for (uint32_t v = 0; v < coding.size(); ++v) {
     if (decoded.output_index[coding[v]] != (reorder ? coding[v] : v)) return false;
@@ -225,6 +246,7 @@ bool survives(const Connectivity& input, std::span<const int32_t> grid,
   if (reorder) {
     for (uint32_t& v : expected.corners) v = coding[v];
   }
+  if (options.face_order && !reorder) return expected == decoded.connectivity;
   return same_faces(expected, decoded.connectivity);
 }
 
@@ -239,11 +261,11 @@ Status encode_reference(const Connectivity& connectivity, std::span<const int32_
   const std::vector<uint32_t> coding = number_vertices(connectivity, plan.encoding);
   MeshState state = make_state(connectivity, grid, plan, coding);
 
-  if (Status s = write_mesh(plan, coding, options, state, bytes); !s.ok()) return s;
+  if (Status s = write_mesh(connectivity, plan, coding, options, state, bytes); !s.ok()) return s;
   constexpr uint32_t kAny = std::numeric_limits<uint32_t>::max();
   const Limits limits = {kAny, kAny, kAny, std::numeric_limits<uint64_t>::max()};
   if (Status s = decode_reference(bytes, limits, decoded); !s.ok()) return s;
-  if (!survives(connectivity, grid, coding, options.reorder, decoded)) {
+  if (!survives(connectivity, grid, coding, options, decoded)) {
     return Status::invalid("reference mesh: it does not survive its coding");
   }
   input_index.resize(coding.size());

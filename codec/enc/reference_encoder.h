@@ -11,13 +11,15 @@
 namespace reeb {
 
 struct ReferenceOptions {
-  bool reorder = false;  ///< drop the vertex order of the input
+  bool reorder = false;     ///< drop the vertex order of the input
+  bool face_order = false;  ///< keep the order and first corners of the faces; not with `reorder`
 };
 
 /// Encodes any connectivity whose corners are below its vertex count (1 .. 2^30 vertices, at most
 /// 2^30 corners), with grid positions 0 .. kGridMax, [vertex][xyz] in input order. Every face comes
-/// back, up to the order of faces and the first corner of each. `decoded` is what the decoder makes
-/// of `bytes`, compared with the input; `input_index` is the input vertex of each coding vertex.
+/// back, unless `face_order` is set up to the order of faces and the first corner of each.
+/// `decoded` is what the decoder makes of `bytes`, compared with the input; `input_index` is the
+/// input vertex of each coding vertex.
 Status encode_reference(const Connectivity& connectivity, std::span<const int32_t> grid,
                         const ReferenceOptions& options, std::vector<uint8_t>& bytes,
                         ReferenceMesh& decoded, std::vector<uint32_t>& input_index);

@@ -90,7 +90,8 @@ Status ShotEncoder::set_grid_bits(uint32_t bits) {
   const uint32_t allowed = std::clamp(bits, kLeastBits, kMostBits);
   if (allowed == grid_bits_) return {};
   SurfaceContext surface;
-  if (Status s = make_surface_context(shot_, allowed, reorder_, surface); !s.ok()) return s;
+  if (Status s = make_surface_context(shot_, allowed, {.reorder = reorder_}, surface); !s.ok())
+    return s;
   surface_ = std::move(surface);
   grid_bits_ = allowed;
   fit_motion();

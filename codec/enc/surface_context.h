@@ -10,6 +10,7 @@
 #include "codec/common/prediction_graph.h"
 #include "codec/common/reference_mesh.h"
 #include "codec/common/sequence.h"
+#include "codec/enc/reference_encoder.h"
 
 namespace reeb {
 
@@ -28,6 +29,7 @@ struct SurfaceContext {
 
 /// Codes the shot's first frame on a grid of `bits` (1 .. 16) bits along the longest side of its
 /// bounding box.
-Status make_surface_context(const Shot& shot, uint32_t bits, bool reorder, SurfaceContext& out);
+Status make_surface_context(const Shot& shot, uint32_t bits, const ReferenceOptions& options,
+                            SurfaceContext& out);
 
 }  // namespace reeb

@@ -8,7 +8,9 @@ from .errors import Corrupt, LimitExceeded, Truncated, Unsupported, require
 SIGNATURE = b"\x89REEB\r\n"
 UINT32 = (1 << 32) - 1
 MAIN, FAST, THESIS, LOSSLESS = 0, 1, 2, 3
-CONTINUES, CORRECTED = 1, 2  # bits of a group's flags
+CONTINUES, CORRECTED, QUICK = 1, 2, 4  # bits of a group's flags
+OPEN_ENDED = 1  # bit of the sequence header's flags
+ORDER_KEPT, FACE_ORDER_KEPT = 1, 2  # bits of a mesh's flags
 
 # README.md section 5: what this decoder allows.
 MAX_FRAMES = 1 << 20
@@ -98,6 +100,7 @@ class File:
     """What a file holds."""
     total_frames: int = 0
     shot_count: int = 0
+    open_ended: bool = False
     references: dict = field(default_factory=dict)  # by shot
     groups: list = field(default_factory=list)  # in order of frames
     metadata: list = field(default_factory=list)
@@ -118,9 +121,9 @@ def read_head(payload, file):
     file.shot_count = reader.uv("shot_count", 1, file.total_frames)
     reader.f64("frame_rate", 0, 1e9)
     reader.f64("start_time", -1e15, 1e15)
-    reader.flags("flags", 0)
+    file.open_ended = reader.flags("flags", OPEN_ENDED) != 0
     require(reader.remaining() == 0, "HEAD: bytes after the last field")
-    if file.total_frames > MAX_FRAMES:
+    if not file.open_ended and file.total_frames > MAX_FRAMES:
         raise LimitExceeded("too many frames")
 
 
@@ -149,7 +152,7 @@ def read_group(payload):
     if profile == THESIS:
         axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
     region_count = 0 if lossless else reader.uv("region_count", 0, UINT32)
-    flags = reader.flags("flags", 0 if lossless else CONTINUES | CORRECTED)
+    flags = reader.flags("flags", QUICK if lossless else CONTINUES | CORRECTED)
     group = Group(first_frame, frame_count, shot, profile, component_count, step, axis_step, region_count, flags)
     motion_bytes = 0 if lossless else reader.uv("motion_bytes", 0, UINT32)
     coefficient_bytes = reader.uv("coefficient_bytes", 0, UINT32)
@@ -251,10 +254,18 @@ class FileReader:
         require(head.type == b"HEAD" and head.intact, "the first chunk is not a sound HEAD")
         with_end_as_fault(read_head, head.payload, self.file)
         self.read_chunks(offset + head.size)
-        if self.file.sound():
-            require(len(self.file.references) == self.file.shot_count and
-                    self.file.frames_end() == self.file.total_frames, "HEAD announces more than the file holds")
+        self.check_counts()
         return self.file
+
+    def check_counts(self):
+        file = self.file
+        if file.open_ended:
+            file.total_frames = file.frames_end()
+            require(not file.sound() or file.groups and max(r.first_frame for r in file.references.values()) <
+                    file.total_frames, "the file ends with a shot without frames")
+        elif file.sound():
+            require(len(file.references) == file.shot_count and file.frames_end() == file.total_frames,
+                    "HEAD announces more than the file holds")
 
     def read_chunks(self, offset):
         landmarks = find_landmarks(self.data)
@@ -333,6 +344,8 @@ class FileReader:
         file = self.file
         group = read_group(chunk.payload)
         require(group.first_frame + group.frame_count <= file.total_frames, "GRUP: past the end of the sequence")
+        if group.first_frame + group.frame_count > MAX_FRAMES:
+            raise LimitExceeded("too many frames")
         require(group.first_frame >= file.frames_end() and group.shot < file.shot_count, "GRUP: wrong place")
         require(not file.groups or group.shot >= file.groups[-1].shot, "GRUP: shots out of order")
         newest = max(file.references, default=-1)
@@ -352,11 +365,14 @@ class MeshHeader:
     draco_bytes: int
     rest_bytes: int
     order_bytes: int
+    face_bytes: int
 
 
 def read_mesh_header(reader):
-    return MeshHeader(reader.uv("vertex_count", 1, 1 << 25), reader.uv("face_count", 0, UINT32),
-                      reader.flags("flags", 1), *(reader.uv("section length", 0, UINT32) for _ in range(3)))
+    vertex_count, face_count = reader.uv("vertex_count", 1, 1 << 25), reader.uv("face_count", 0, UINT32)
+    flags = reader.flags("flags", ORDER_KEPT | FACE_ORDER_KEPT)
+    sections = [reader.uv("section length", 0, UINT32) for _ in range(4 if flags & FACE_ORDER_KEPT else 3)]
+    return MeshHeader(vertex_count, face_count, flags, *(sections + [0])[:4])
 
 
 def with_end_as_fault(function, *arguments):

@@ -4,6 +4,7 @@ import struct
 
 from .arithmetic import clamp, f32, floor_log2, log2_5
 from .bytes import LARGEST_F32
+from .container import QUICK
 from .entropy import AdaptiveBit, ExpGolomb, Mixer, RangeDecoder, adaptive_bits
 from .errors import require
 from .raw_bits import RawBits
@@ -105,14 +106,13 @@ def decode_set(raw):
 class RowState:
     """Section 2: position, displacements and weights of a row."""
 
-    def __init__(self, row, start):
+    def __init__(self, row, start, most):
         self.row = row
         self.x = list(start)
         self.now, self.before, self.older = [0.0] * 3, [0.0] * 3, [0.0] * 3
-        near = min(len(row.neighbours), 14)
+        near = min(len(row.neighbours), most)
         self.near = row.neighbours[:near]
         n = self.n = 2 + near
-        self.precision = [0.3, 0.3] + [1.0] * near
         self.prior = [0.0 if near else 0.8, 0.0] + row.prior[:near]
         self.m = [[0.0] * n for _ in range(n)]
         self.g = [0.0] * n
@@ -149,19 +149,19 @@ class RowState:
             for axis in range(3):
                 total = total + y[axis][i] * d[axis]
             self.g[i] = total
-        self.e = self.e * (27 / 32) + self.squared_error * (5 / 32)
+        self.e = self.e * 0.25 + self.squared_error * 0.75
         self.solve()
 
     def solve(self):
         trace = 0.0
         for i in range(self.n):
             trace = trace + self.m[i][i]
-        ridge = max(self.e * 4, trace * 2.0 ** -34) + 1e-100
+        ridge = max(self.e * 0.125, trace * 2.0 ** -34) + 1e-100
         A = [list(row) for row in self.m]
         w = []
         for i in range(self.n):
-            A[i][i] = A[i][i] + ridge * self.precision[i]
-            w.append(self.g[i] + (ridge * self.precision[i]) * self.prior[i])
+            A[i][i] = A[i][i] + ridge
+            w.append(self.g[i] + ridge * self.prior[i])
         substitute(A, factorise(A), w)
         self.w = [f32(x) if -64 < x < 64 else 0.0 for x in w]
 
@@ -176,15 +176,18 @@ class LosslessGroup:
         self.decoder = RangeDecoder(group.coefficients)
         self.raw = RawBits(group.basis)
         self.graph = rows
+        self.quick = group.flags & QUICK != 0
         count = len(rows)
         self.rows = []
         for row, p in zip(rows, positions):
             start = [reference.origin[a] + p[a] * reference.grid_step for a in range(3)]
-            self.rows.append(RowState(row, [f32(min(max(x, -LARGEST_F32), LARGEST_F32)) for x in start]))
+            self.rows.append(RowState(row, [f32(min(max(x, -LARGEST_F32), LARGEST_F32)) for x in start],
+                                      6 if self.quick else 14))
         self.repeats, self.same, self.distance = adaptive_bits(2), AdaptiveBit(), ExpGolomb()
         self.last = self.known = 0
         self.still = adaptive_bits(72)
         self.mixer = Mixer([contexts * STEPS for contexts in TABLES], 3 * STEPS, 250)
+        self.length = [adaptive_bits(STEPS) for _ in range(160)]
         self.sign_bit = adaptive_bits(27)
         self.place = [[adaptive_bits(8) for _ in range(5)] for _ in range(8)]
         self.quiet = [0] * count
@@ -240,8 +243,9 @@ class LosslessGroup:
             self.decoder.check()
         self.frames.append([tuple(row.x) for row in self.rows])
         if self.coded > 0:
-            for row in self.rows:
-                row.learn(self.rows)
+            if not self.quick or self.coded < 8 or self.coded % 4 == 0:
+                for row in self.rows:
+                    row.learn(self.rows)
             for row in self.rows:
                 row.older = row.before
                 row.before = row.now
@@ -276,6 +280,8 @@ class LosslessGroup:
     def decode_length(self, contexts):
         """Section 5."""
         def more(step):
+            if self.quick:
+                return self.length[min(contexts.expected // 2, 159)][step].decode(self.decoder, 500)
             return self.mixer.decode(self.decoder, contexts.entries(step), step * 3 + contexts.axis)
 
         length = clamp((contexts.expected + 4) // 8, 1, 41)
@@ -298,6 +304,8 @@ class LosslessGroup:
     def decode_difference(self, r, a, length, expected):
         if length == 0:
             return 0
+        if self.quick:
+            return self.decode_raw_difference(length)
         neighbours = self.graph[r].neighbours
 
         def s(i):
@@ -317,6 +325,14 @@ class LosslessGroup:
             left -= n
             size = (size << n) + self.raw.raw(n)
         return -size if negative else size
+
+    def decode_raw_difference(self, length):
+        v, left = 0, length
+        while left > 0:
+            n = min(left, 24)
+            left -= n
+            v = (v << n) + self.raw.raw(n)
+        return -v if v >= 1 << (length - 1) else v + (1 << (length - 1))
 
 
 class LengthContexts:

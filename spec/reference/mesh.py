@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from .bytes import Reader
 from .connectivity import NONE, after, find_twins, join_triangles
-from .container import read_mesh_header
+from .container import FACE_ORDER_KEPT, ORDER_KEPT, read_mesh_header
 from .entropy import EVEN, AdaptiveBit, ExpGolomb, RangeDecoder, SignedInteger
 from .errors import Corrupt, Truncated, require
 from .guesses import Guess, GuessMixture
-from .order import decode_order
+from .order import arrange_faces, decode_order
 from .points import GRID_SIZE, PointDecoder
 
 DRACO_FRONT = bytes.fromhex("44 52 41 43 4F 02 02 01 01 00 00")
@@ -164,7 +164,8 @@ def decode_mesh(data, draco_command):
     reader = Reader(data)
     try:
         header = read_mesh_header(reader)
-        draco, rest, order = (reader.take(n) for n in (header.draco_bytes, header.rest_bytes, header.order_bytes))
+        lengths = header.draco_bytes, header.rest_bytes, header.order_bytes, header.face_bytes
+        draco, rest, order, arrangement = (reader.take(n) for n in lengths)
     except Truncated:
         raise Corrupt("the mesh's sections do not fit")
     require(reader.remaining() == 0, "sections do not fill the mesh")
@@ -177,11 +178,13 @@ def decode_mesh(data, draco_command):
     for face in parts.listed:
         coding_triangles += [[face[0], face[i], face[i + 1]] for i in range(1, len(face) - 1)]
     flat = [v for t in coding_triangles if len(set(t)) == 3 for v in t]
-    if header.flags & 1:
+    if header.flags & ORDER_KEPT:
         output = decode_order(order, header.vertex_count, flat)
     else:
         require(not order, "an order where none is kept")
         output = list(range(header.vertex_count))
     faces = [[output[vertex[p]] for p in polygon] for polygon in parts.polygons]
     faces += [[output[v] for v in face] for face in parts.listed]
+    if header.flags & FACE_ORDER_KEPT:
+        faces = arrange_faces(arrangement, header.vertex_count, faces)
     return Mesh(parts.grid, flat, output, faces)

@@ -1,16 +1,20 @@
-"""reference_mesh.md section 7: the output index of every coding vertex."""
+"""reference_mesh.md sections 7 and 8: the output index of every coding vertex, and of every face."""
 import bisect
 
 from .connectivity import NONE, after, before, coding_order, edges_from, find_twins
-from .entropy import RangeDecoder
+from .entropy import RangeDecoder, adaptive_bits
 from .guesses import Guess, GuessMixture
 
 SCALE = 2048
 
 
 def decode_order(data, vertex_count, triangles):
-    decoder = RangeDecoder(data)
-    mixture = GuessMixture(9, 512)
+    return decode_indices(RangeDecoder(data), vertex_count, triangles)
+
+
+def decode_indices(decoder, vertex_count, triangles, expected=None):
+    """Section 7; `expected`: an index that each vertex is guessed to have, of kind 9."""
+    mixture = GuessMixture(10, 512)
     twins = find_twins(triangles)
     fans = edges_from(vertex_count, triangles)
     u = coding_order(vertex_count, triangles)
@@ -37,6 +41,8 @@ def decode_order(data, vertex_count, triangles):
             r = rank(output[u[turn_of_neighbour]])
             likely = r if j == 0 else likely
             guesses.append(Guess(min(1 + j, 5), 256 * r, SCALE))
+        if expected is not None:
+            guesses.append(Guess(9, 256 * rank(expected[v]), SCALE))
         r = mixture.decode(decoder, guesses, len(free), min(likely, len(free) - 1), 1)
         decoder.check()
         output[v] = free.pop(r)
@@ -56,3 +62,51 @@ def parallelogram_indices(v, k, triangles, twins, fans, turn, output):
             if 0 <= index < len(output):
                 found.append(index)
     return found
+
+
+def arrange_faces(data, vertex_count, faces):
+    """Section 8: the faces in the order of the output, each from its first corner on."""
+    decoder = RangeDecoder(data)
+    expected = [min(face) * len(faces) // vertex_count for face in faces]
+    index = decode_indices(decoder, len(faces), dual_triangles(faces), expected)
+    arranged = [None] * len(faces)
+    for face, place in zip(faces, index):
+        arranged[place] = face
+    models = [[adaptive_bits(4) for _ in range(5)] for _ in range(4)]
+    face_before, last = [], 0
+    for place, face in enumerate(arranged):
+        at = face.index(min(face))
+        passed = 0
+        while passed + 1 < len(face):
+            vertex = face[at]
+            where = face_before.index(vertex) if vertex in face_before else 4
+            if models[min(passed, 3)][where][last].decode(decoder):
+                break
+            passed += 1
+            at = (at + 1) % len(face)
+        decoder.check()
+        last = min(passed, 3)
+        arranged[place] = face[at:] + face[:at]
+        face_before = arranged[place][:4]
+    return arranged
+
+
+def dual_triangles(faces):
+    edges = {}
+    for f, face in enumerate(faces):
+        for i, v in enumerate(face):
+            w = face[(i + 1) % len(face)]
+            edges.setdefault((min(v, w), max(v, w)), []).append(f)
+    triangles = []
+    for f, face in enumerate(faces):
+        across = []
+        for i, v in enumerate(face):
+            w = face[(i + 1) % len(face)]
+            beside = edges[min(v, w), max(v, w)]
+            if len(beside) == 2 and beside[0] != beside[1]:
+                across.append(beside[0] + beside[1] - f)
+        for i, n in enumerate(across):
+            following = across[(i + 1) % len(across)]
+            if n != following:
+                triangles += [f, n, following]
+    return triangles
