@@ -289,7 +289,8 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
     if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
     stats = this->stats();
   }
-  if (best_.excess > 0) return unreachable(stats);
+  const bool missed = bounded() && stats.max_error > options_.target_value;
+  if (best_.excess > 0 || missed) return unreachable(stats);
   out = std::move(best_.bytes);
   return {};
 }
