@@ -37,6 +37,13 @@ NumberSet::NumberSet(uint32_t digits, uint32_t decimals)
   rank_end_ = static_cast<int64_t>(first_ + decades * later_);
 }
 
+NumberSet NumberSet::multiples(double step) {
+  NumberSet out;
+  out.step_ = step;
+  out.rank_end_ = kMultiplesEnd;
+  return out;
+}
+
 uint64_t NumberSet::decimal_rank(double x) const {
   const auto first = static_cast<double>(first_);
   const int places = static_cast<int>(decimals_);

@@ -9,10 +9,12 @@
 
 namespace reeb {
 
-/// Either every binary32 value, or the decimals of `digits` significant digits and at most
-/// `decimals` places, each rounded to binary32: what text files hold.
+/// Every binary32 value; or the decimals of `digits` significant digits and at most `decimals`
+/// places, each rounded to binary32: what text files hold; or the multiples of a step, rounded to
+/// binary32: what is left where errors up to half of it are allowed.
 ///
-/// The integer of a number x >= 0 is its rank, that of -x is -1 - rank; 0 and -0 differ.
+/// The integer of a number x >= 0 is its rank, that of -x is -1 - rank; 0 and -0 differ. That of a
+/// multiple is how many steps it is.
 class NumberSet {
  public:
   static constexpr uint32_t kMaxDigits = 9;
@@ -24,13 +26,18 @@ class NumberSet {
   NumberSet() = default;
   /// Decimals; 1 <= digits <= kMaxDigits, decimals <= kMaxDecimals.
   NumberSet(uint32_t digits, uint32_t decimals);
+  /// Multiples; `step` is positive and at most the largest binary32.
+  static NumberSet multiples(double step);
 
+  /// 0 but for multiples.
+  double step() const { return step_; }
   bool decimal() const { return digits_ > 0; }
   uint32_t digits() const { return digits_; }
   uint32_t decimals() const { return decimals_; }
 
   /// The integer of the number next to x, which is finite; beyond binary32 the largest.
   int64_t nearest(double x) const {
+    if (step_ > 0) return nearest_multiple(x);
     const bool negative = std::signbit(x);
     const auto rank = static_cast<int64_t>(decimal() ? decimal_rank(negative ? -x : x)
                                                      : binary_rank(negative ? -x : x));
@@ -47,11 +54,12 @@ class NumberSet {
   /// True where the integer is that of a finite number.
   bool valid(int64_t n) const {
     const int64_t rank = n < 0 ? -1 - n : n;
-    return rank < rank_end_;
+    return rank < rank_end_ && (step_ == 0 || std::isfinite(number(n)));
   }
 
   /// The number of a valid integer.
   float number(int64_t n) const {
+    if (step_ > 0) return static_cast<float>(static_cast<double>(n) * step_);
     const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
     const float x =
         decimal() ? decimal_number(rank) : std::bit_cast<float>(static_cast<uint32_t>(rank));
@@ -60,16 +68,24 @@ class NumberSet {
 
   /// log2 of the distance between neighbours near a valid integer, in 1/8, up to a constant.
   int32_t spacing(int64_t n) const {
+    if (step_ > 0) return 0;
     const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
     return decimal() ? decade(rank) * 213 / 8 : 8 * static_cast<int32_t>(rank >> 23);
   }
 
  private:
   static constexpr int64_t kBinaryEnd = 0x7F800000;
+  static constexpr int64_t kMultiplesEnd = int64_t{1} << (kRankBits - 1);
 
   static uint64_t binary_rank(double x) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     return std::bit_cast<uint32_t>(static_cast<float>(x < kLargest ? x : kLargest));
+  }
+  /// floor(x / step + 1/2), within the ranks.
+  int64_t nearest_multiple(double x) const {
+    const double n = std::floor(x / step_ + 0.5);
+    constexpr auto kMost = static_cast<double>(kMultiplesEnd - 1);
+    return static_cast<int64_t>(n > kMost ? kMost : n < -kMost ? -kMost : n);
   }
   uint64_t decimal_rank(double x) const;
   float decimal_number(uint64_t rank) const;
@@ -78,6 +94,7 @@ class NumberSet {
     return rank < first_ ? 0 : static_cast<int32_t>((rank - first_) / later_) + 1;
   }
 
+  double step_ = 0;
   uint32_t digits_ = 0;
   uint32_t decimals_ = 0;
   int64_t rank_end_ = kBinaryEnd;

@@ -6,6 +6,7 @@
 
 #include "codec/enc/lossless_sequence.h"
 #include "codec/enc/sequence_encoder.h"
+#include "codec/enc/snapped_sequence.h"
 
 namespace reeb {
 
@@ -47,6 +48,23 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   return {};
 }
 
+/// Keeps the smaller of a corrected encoding, which is in `out`, and a snapped one.
+Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
+                   std::vector<uint8_t>& out, EncodeStats& stats) {
+  constexpr double kLeastRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
+  const double step = 2 * options.target_value;
+  if (options.profile != Profile::kMain || stats.bpvf < kLeastRate ||
+      !(step < static_cast<double>(kLargestPosition)))
+    return {};
+  std::vector<uint8_t> other;
+  EncodeStats other_stats;
+  if (Status s = encode_snapped(sequence, options, other, other_stats); !s.ok()) return s;
+  if (other.size() >= out.size()) return {};
+  out = std::move(other);
+  stats = std::move(other_stats);
+  return {};
+}
+
 }  // namespace
 
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
@@ -54,8 +72,10 @@ Status encode(const Sequence& sequence, const EncodeOptions& options, std::vecto
   out.clear();
   stats = {};
   if (Status s = check(sequence, options); !s.ok()) return s;
-  if (options.target == Target::kLossless) return encode_lossless(sequence, options, out, stats);
-  return SequenceEncoder(sequence, options).run(out, stats);
+  if (options.target == Target::kLossless) return encode_lossless(sequence, options, 0, out, stats);
+  if (Status s = SequenceEncoder(sequence, options).run(out, stats); !s.ok()) return s;
+  return options.target == Target::kMaxError ? try_snapped(sequence, options, out, stats)
+                                             : Status();
 }
 
 }  // namespace reeb

@@ -9,16 +9,17 @@
 namespace reeb {
 
 LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
-                                    bool quick, unsigned threads) {
+                                    const LosslessMethod& method, unsigned threads) {
   BinaryEncoder bits;
   RawBitWriter raw;
   NumberSets sets;
-  for (uint32_t a = 0; a < 3; ++a) sets[a] = choose_number_set(frames, a);
+  for (uint32_t a = 0; a < 3; ++a)
+    sets[a] = method.step > 0 ? NumberSet::multiples(method.step) : choose_number_set(frames, a);
   code_number_sets(raw, sets);
   FrameCoder coder(surface.surface.graph,
                    start_positions(surface.points(), surface.surface.order, surface.header.origin,
                                    surface.header.grid_step),
-                   sets, quick, threads);
+                   sets, method.quick, threads);
   RepeatSyntax repeats;
   std::vector<float> frame;
   for (uint32_t t = 0; t < frames.frame_count(); ++t) {

@@ -16,9 +16,13 @@ struct LosslessGroup {
   std::vector<uint8_t> basis;         ///< bits at even odds
 };
 
-/// `quick` trades rate for speed of both directions.
+struct LosslessMethod {
+  bool quick = false;  ///< trades rate for speed of both directions
+  double step = 0;     ///< nearly all values are multiples of it; 0 where nothing is known
+};
+
 /// Encodes at least one frame, [row of the surface graph][xyz], all values finite.
 LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
-                                    bool quick, unsigned threads);
+                                    const LosslessMethod& method, unsigned threads);
 
 }  // namespace reeb

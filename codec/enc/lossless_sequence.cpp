@@ -46,15 +46,18 @@ EncodeStats stats_of(const Sequence& sequence, const std::vector<uint8_t>& bytes
 
 }  // namespace
 
-Status encode_lossless(const Sequence& sequence, const EncodeOptions& options,
+Status encode_lossless(const Sequence& sequence, const EncodeOptions& options, double step,
                        std::vector<uint8_t>& out, EncodeStats& stats) {
   std::vector<uint8_t> bytes;
-  StreamEncoder encoder(
-      {options.group_length, options.reorder, options.effort <= kQuickEffort, options.threads},
-      [&](std::span<const uint8_t> part) {
-        bytes.insert(bytes.end(), part.begin(), part.end());
-        return true;
-      });
+  StreamEncoder encoder({.group_length = options.group_length,
+                         .reorder = options.reorder,
+                         .face_order = step == 0,
+                         .method = {options.effort <= kQuickEffort, step},
+                         .threads = options.threads},
+                        [&](std::span<const uint8_t> part) {
+                          bytes.insert(bytes.end(), part.begin(), part.end());
+                          return true;
+                        });
   SequenceHeader header;
   header.total_frames = sequence.frame_count();
   header.shot_count = static_cast<uint32_t>(sequence.shots.size());

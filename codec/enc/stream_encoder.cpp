@@ -58,8 +58,8 @@ Status StreamEncoder::Impl::open_surface(std::span<const float> xyz) {
   first.positions.assign(xyz.begin(), xyz.end());
   first.frame_count = 1;
   auto made = std::make_shared<SurfaceContext>();
-  if (Status s = make_surface_context(first, kGridBits,
-                                      {.reorder = options.reorder, .face_order = true}, *made);
+  if (Status s = make_surface_context(
+          first, kGridBits, {.reorder = options.reorder, .face_order = options.face_order}, *made);
       !s.ok())
     return s;
   made->header.shot = shots - 1;
@@ -94,8 +94,8 @@ Status StreamEncoder::Impl::close_group() {
   frames_queued += frames.frame_count();
   queue.push_back(
       std::async(resolve_threads(options.threads) > 1 ? std::launch::async : std::launch::deferred,
-                 [graph = surface, group = std::move(frames), quick = options.quick] {
-                   return encode_lossless_group(*graph, group, quick, 1);
+                 [graph = surface, group = std::move(frames), method = options.method] {
+                   return encode_lossless_group(*graph, group, method, 1);
                  }));
   frames = {};
   newest.clear();
@@ -110,7 +110,7 @@ Status StreamEncoder::Impl::write_oldest() {
   header.frame_count = group.frame_count;
   header.shot = shots - 1;
   header.profile = Profile::kLossless;
-  header.flags = options.quick ? GroupHeader::kQuick : uint8_t{0};
+  header.flags = options.method.quick ? GroupHeader::kQuick : uint8_t{0};
   header.component_count = group.stored_count;
   frames_done += group.frame_count;
   if (Status s = writer.group(header, {.motion = {},

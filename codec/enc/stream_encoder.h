@@ -10,13 +10,15 @@
 #include "bitstream/headers.h"
 #include "bitstream/status.h"
 #include "codec/common/sequence.h"
+#include "codec/enc/lossless_encoder.h"
 
 namespace reeb {
 
 struct StreamOptions {
   uint32_t group_length = 0;  ///< frames per group, 1 .. 65536; 0 = as many as 64 MiB hold
   bool reorder = false;       ///< drop the order of vertices and faces (saves bits)
-  bool quick = false;         ///< several times as quick both ways, files about a sixth larger
+  bool face_order = true;     ///< faces come back in order, with their first corners
+  LosslessMethod method;      ///< quick: several times as quick, files about a sixth larger
   unsigned threads = 0;       ///< 0 = all cores; the bytes do not depend on it
 };
 

@@ -90,3 +90,28 @@ TEST_CASE("decimals are numbered without gaps", "[number_set]") {
   CHECK(set.nearest(0.26) == 3);
   CHECK(set.valid(set.nearest(1e30)));
 }
+
+TEST_CASE("multiples of a step are numbered by how many steps they are", "[number_set]") {
+  const NumberSet set = NumberSet::multiples(0.25);
+  for (const auto& [x, n] : {std::pair(0.0, 0),
+                             {0.12, 0},
+                             {0.125, 1},
+                             {-0.125, 0},
+                             {-0.2, -1},
+                             {7.0, 28},
+                             {-7.1, -28}}) {
+    CHECK(set.nearest(x) == n);
+    CHECK(set.number(n) == 0.25f * static_cast<float>(n));
+  }
+  bool found = true;
+  set.find(0.3f, found);
+  CHECK_FALSE(found);
+  set.find(-0.0f, found);
+  CHECK_FALSE(found);
+  CHECK(set.find(-1.75f, found) == -7);
+  CHECK(found);
+  CHECK(set.valid(set.nearest(1e300)));
+  CHECK_FALSE(set.valid(int64_t{1} << 39));
+  CHECK_FALSE(NumberSet::multiples(3e38).valid(2));  // beyond binary32
+  CHECK(set.spacing(1) == set.spacing(1000));
+}

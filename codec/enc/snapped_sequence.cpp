@@ -1,0 +1,69 @@
+#include "codec/enc/snapped_sequence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "codec/common/number_set.h"
+#include "codec/enc/lossless_sequence.h"
+
+namespace reeb {
+
+namespace {
+
+// Of twice the bound: leaves room for rounding a multiple to binary32.
+constexpr double kStepShare = 1 - 1.0 / 1024;
+
+struct ErrorFigures {
+  double squared = 0;  ///< sum over all coordinates
+  double energy = 0;   ///< of the original about the mean of each frame and axis
+  double largest = 0;
+};
+
+/// Moves each coordinate to the multiple next to it; those that it would miss stay.
+void snap(Shot& shot, const NumberSet& multiples, double bound) {
+  for (float& x : shot.positions) {
+    const int64_t n = multiples.nearest(static_cast<double>(x));
+    if (!multiples.valid(n)) continue;
+    const float y = multiples.number(n);
+    if (std::abs(static_cast<double>(y) - static_cast<double>(x)) < bound) x = y;
+  }
+}
+
+void measure(std::span<const float> original, std::span<const float> snapped, ErrorFigures& out) {
+  std::array<double, 3> mean{};
+  for (size_t i = 0; i < original.size(); ++i) mean[i % 3] += static_cast<double>(original[i]);
+  for (double& m : mean) m /= static_cast<double>(original.size() / 3);
+  for (size_t i = 0; i < original.size(); ++i) {
+    const auto x = static_cast<double>(original[i]);
+    const double error = std::abs(x - static_cast<double>(snapped[i]));
+    out.squared += error * error;
+    out.largest = std::max(out.largest, error);
+    out.energy += (x - mean[i % 3]) * (x - mean[i % 3]);
+  }
+}
+
+}  // namespace
+
+Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
+                      std::vector<uint8_t>& out, EncodeStats& stats) {
+  const double step = 2 * options.target_value * kStepShare;
+  const NumberSet multiples = NumberSet::multiples(step);
+  Sequence snapped = sequence;
+  ErrorFigures errors;
+  double vertex_frames = 0;
+  for (size_t i = 0; i < sequence.shots.size(); ++i) {
+    const Shot& shot = sequence.shots[i];
+    snap(snapped.shots[i], multiples, options.target_value);
+    for (uint32_t t = 0; t < shot.frame_count; ++t)
+      measure(shot.frame(t), snapped.shots[i].frame(t), errors);
+    vertex_frames += static_cast<double>(shot.connectivity.vertex_count) * shot.frame_count;
+  }
+  if (Status s = encode_lossless(snapped, options, step, out, stats); !s.ok()) return s;
+  stats.kg = errors.energy > 0 ? 100 * std::sqrt(errors.squared / errors.energy) : 0;
+  stats.rmse = std::sqrt(errors.squared / vertex_frames);
+  stats.max_error = errors.largest;
+  return {};
+}
+
+}  // namespace reeb
