@@ -15,11 +15,11 @@
 namespace reeb {
 
 struct StreamOptions {
-  uint32_t group_length = 0;  ///< frames per group, 1 .. 65536; 0 = as many as 64 MiB hold
-  bool reorder = false;       ///< drop the order of vertices and faces (saves bits)
-  bool face_order = true;     ///< faces come back in order, with their first corners
-  LosslessMethod method;      ///< quick: several times as quick, files about a sixth larger
-  unsigned threads = 0;       ///< 0 = all cores; the bytes do not depend on it
+  uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = as many as 64 MiB hold
+  bool reorder = false;        ///< drop the order of vertices and faces (saves bits)
+  bool face_order = true;      ///< faces come back in order, with their first corners
+  LosslessMethod method = {};  ///< quick: several times as quick, files about a sixth larger
+  unsigned threads = 0;        ///< 0 = all cores; the bytes do not depend on it
 };
 
 /// Takes the bytes of the file in order; false where it cannot.
