@@ -223,7 +223,9 @@ void add_coding_options(CLI::App& command, Options& o) {
               throw CLI::ValidationError("--regions", "'" + text + "' is neither auto nor >= 0");
             }
           },
-          "Regions of the motion model, 0 = none; default auto (by rate and distortion)")
+          "Regions of the motion model, 0 = none; default auto (by rate and distortion; in the "
+          "main "
+          "profile, where it rarely pays, tried at effort 9 only)")
       ->type_name("N")
       ->group(group);
 }

@@ -52,8 +52,18 @@ class GroupEncoder {
   virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                             GroupRun& run) = 0;
 
+  /// Squared error to expect at quantization step q, roughly, without encoding.
+  virtual double expected_error(double q) const = 0;
+
   /// What the motion model is to predict: V x K, world units, rows as the surface graph.
   virtual Eigen::MatrixXf motion_targets(const SurfaceContext& surface) = 0;
+
+  /// From now on sends exactly `count` components; nothing = as many as pay. Without a meaning in
+  /// the thesis profile.
+  void hold_components(std::optional<uint32_t> count) { held_count_ = count; }
+
+  /// Weight of bits against squared error in decisions, relative to the usual one.
+  void set_thrift(double factor) { thrift_ = factor; }
 
   const GroupSignal& signal() const { return signal_; }
 
@@ -61,6 +71,8 @@ class GroupEncoder {
   using Planes = std::vector<std::vector<float>>;
 
   GroupSignal signal_;
+  std::optional<uint32_t> held_count_;
+  double thrift_ = 1;
 };
 
 /// Fills the motion section and adds the motion to the planes.

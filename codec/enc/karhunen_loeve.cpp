@@ -31,6 +31,7 @@ KarhunenLoeve::KarhunenLoeve(const GroupSignal& signal) : signal_(signal) {
   Eigen::Index kept = 0;
   while (kept < most && variance[kept] > kNothing * variance[0]) ++kept;
   basis_ = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+  energies_ = variance.head(kept);
   coefficients_.resize(signal.trajectories.rows(), kept);
 }
 

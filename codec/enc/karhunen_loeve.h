@@ -16,6 +16,8 @@ class KarhunenLoeve {
   /// 3F x K orthonormal columns by falling variance; K <= min(V, 3F) leaves out what is numerically
   /// nothing.
   const Eigen::MatrixXd& basis() const { return basis_; }
+  /// Energy of each component, world units squared.
+  const Eigen::VectorXd& energies() const { return energies_; }
   uint32_t size() const { return static_cast<uint32_t>(basis_.cols()); }
 
   /// Coefficients of component k: V values in input order, world units. Computed when first asked
@@ -25,6 +27,7 @@ class KarhunenLoeve {
  private:
   const GroupSignal& signal_;
   Eigen::MatrixXd basis_;
+  Eigen::VectorXd energies_;
   Eigen::MatrixXf coefficients_;
   Eigen::Index computed_ = 0;
 };

@@ -20,6 +20,16 @@
 #include "entropy/range_coder.h"
 
 namespace reeb {
+
+// What the encoder decides before anything is coded: which faces go to Draco and what it makes of
+// them.
+struct DracoPlan {
+  std::vector<uint32_t> faces;  // input faces in Draco's mesh
+  DracoEncoding encoding;       // empty where no face is
+  std::vector<uint32_t> twins;
+  std::vector<uint8_t> diagonal;
+};
+
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
@@ -45,15 +55,6 @@ Status check_input(const Connectivity& c, std::span<const int32_t> grid) {
   }
   return {};
 }
-
-// What the encoder decides before anything is coded: which faces go to Draco and what it makes of
-// them.
-struct DracoPlan {
-  std::vector<uint32_t> faces;  // input faces in Draco's mesh
-  DracoEncoding encoding;       // empty where no face is
-  std::vector<uint32_t> twins;
-  std::vector<uint8_t> diagonal;
-};
 
 class Planner {
  public:
@@ -252,12 +253,28 @@ bool survives(const Connectivity& input, std::span<const int32_t> grid,
 
 }  // namespace
 
+ReferencePlan::ReferencePlan(const Connectivity& connectivity) : connectivity_(connectivity) {}
+ReferencePlan::~ReferencePlan() = default;
+
+const DracoPlan& ReferencePlan::draco() {
+  if (draco_ == nullptr) draco_ = std::make_unique<DracoPlan>(Planner(connectivity_).plan());
+  return *draco_;
+}
+
 Status encode_reference(const Connectivity& connectivity, std::span<const int32_t> grid,
                         const ReferenceOptions& options, std::vector<uint8_t>& bytes,
                         ReferenceMesh& decoded, std::vector<uint32_t>& input_index) {
+  ReferencePlan plan(connectivity);
+  return encode_reference(plan, grid, options, bytes, decoded, input_index);
+}
+
+Status encode_reference(ReferencePlan& reusable, std::span<const int32_t> grid,
+                        const ReferenceOptions& options, std::vector<uint8_t>& bytes,
+                        ReferenceMesh& decoded, std::vector<uint32_t>& input_index) {
   bytes.clear();
+  const Connectivity& connectivity = reusable.connectivity();
   if (Status s = check_input(connectivity, grid); !s.ok()) return s;
-  const DracoPlan plan = Planner(connectivity).plan();
+  const DracoPlan& plan = reusable.draco();
   const std::vector<uint32_t> coding = number_vertices(connectivity, plan.encoding);
   MeshState state = make_state(connectivity, grid, plan, coding);
 

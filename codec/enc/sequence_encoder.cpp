@@ -12,18 +12,17 @@ namespace reeb {
 
 namespace {
 
-constexpr double kGridPerError =
-    2.0;  ///< first guess of the grid step, in RMS errors per coordinate
 constexpr double kGuessedPrecision =
-    2e-4;  ///< of the extent: error expected where the target is a size
+    2e-4;                          ///< of the extent: error expected where the target is a size
+constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
-constexpr double kRoughTolerance = 0.05;
-constexpr double kTolerance = 0.008;
+constexpr double kNear = 0.1;           ///< of the target, where settings are compared
+constexpr double kTolerance = 0.0095;
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
 constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
 constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corrections
-constexpr int kBaseTrials = 7;
+constexpr double kThriftRatio = 0.75;   ///< between weights of bits that are tried
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -44,7 +43,7 @@ Status unreachable(const EncodeStats& nearest) {
 }  // namespace
 
 SequenceEncoder::SequenceEncoder(const Sequence& sequence, const EncodeOptions& options)
-    : sequence_(sequence), options_(options) {
+    : sequence_(sequence), options_(options), effort_(effort_preset(options.effort)) {
   uint32_t first_frame = 0;
   for (const Shot& shot : sequence.shots) {
     shots_.push_back(std::make_unique<ShotEncoder>(shot, first_frame, options,
@@ -107,16 +106,18 @@ Status SequenceEncoder::attempt(double q, Attempt& out) {
   return {};
 }
 
-Status SequenceEncoder::search(double tolerance, int max_trials) {
+Status SequenceEncoder::search(double slack, double tolerance, int max_trials) {
   Status status;
   std::vector<Attempt> attempts;
+  attempts.push_back(std::move(best_));
   const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials,
-                                         least_step()};
-  const StepTrial found = search_step(best_.q, search_options, [&](double q) {
+                                         least_step(), expected_slope(best_.q)};
+  const StepTrial first{attempts[0].q, attempts[0].excess - slack};
+  const StepTrial found = search_step(first, search_options, [&](double q) {
     Attempt a;
     if (status.ok()) status = attempt(q, a);
     attempts.push_back(std::move(a));
-    return status.ok() ? attempts.back().excess : 0;
+    return status.ok() ? attempts.back().excess - slack : 0;
   });
   if (!status.ok()) return status;
   for (Attempt& a : attempts) {
@@ -136,15 +137,12 @@ Status SequenceEncoder::search(double tolerance, int max_trials) {
 // The reconstruction underneath may be rough, since corrections bound the error whatever it is: the
 // best one makes the smallest file.
 Status SequenceEncoder::search_base() {
-  Attempt first;
-  if (Status s = attempt(best_.q, first); !s.ok()) return s;
-  const double rms = std::sqrt(first.squared_error / (3 * vertex_frames_));
+  const double rms = coordinate_error();
   const double wanted = options_.target_value / kBoundPerError;
   const double scale = rms > 0 ? std::clamp(wanted / rms, 0.1, 10.0) : 1.0;
   const double q0 = std::max(best_.q * scale, least_step());
-  best_ = std::move(first);
   Status status;
-  search_least(q0, kBaseRatio, kBaseTrials, [&](double q) {
+  search_least(q0, kBaseRatio, effort_.base_trials, [&](double q) {
     Attempt a;
     if (status.ok()) status = attempt(q, a);
     if (!status.ok()) return 0.0;
@@ -155,10 +153,50 @@ Status SequenceEncoder::search_base() {
   return status;
 }
 
+void SequenceEncoder::hold_components(bool held) {
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    shots_[i]->hold_components(held ? best_.shots[i] : std::vector<CodedGroup>());
+  }
+}
+
+Status SequenceEncoder::finish_search() {
+  if (bounded()) return {};
+  // With the number of components the error would jump by more than the tolerance.
+  if (Status s = search(0, kTolerance, kTrials); !s.ok()) return s;
+  if (best_.excess <= 0 && best_.excess >= -kTolerance) return {};
+  hold_components(false);
+  return search(0, kTolerance, kTrials);
+}
+
 double SequenceEncoder::least_step() const {
   double largest = 0;
   for (const auto& shot : shots_) largest = std::max(largest, shot->largest_coefficient());
   return largest / kMostSteps;
+}
+
+double SequenceEncoder::guess_step(double error) const {
+  if (energy_ <= 0 || error <= 0) return kAnyStep;
+  if (bounded()) return 2 * error * std::sqrt(static_cast<double>(sequence_.frame_count()));
+  const double wanted = error * error * 3 * vertex_frames_;
+  double low = std::log(std::max(least_step(), 1e-30));
+  double high = 0.5 * std::log(energy_);
+  for (int i = 0; i < 40 && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    double expected = 0;
+    for (const auto& shot : shots_) expected += shot->expected_error(std::exp(middle));
+    (expected < wanted ? low : high) = middle;
+  }
+  return std::exp(low);
+}
+
+double SequenceEncoder::expected_slope(double q) const {
+  if (!is_error(options_.target)) return 0;
+  const auto logarithm = [this](double at) {
+    double error = 0;
+    for (const auto& shot : shots_) error += shot->expected_error(at);
+    return error > 0 ? 0.5 * std::log(error) : 0;
+  };
+  return (logarithm(1.2 * q) - logarithm(q / 1.2)) / (2 * std::log(1.2));
 }
 
 double SequenceEncoder::coordinate_error() const {
@@ -167,7 +205,10 @@ double SequenceEncoder::coordinate_error() const {
 
 Status SequenceEncoder::set_grids(double error) {
   for (auto& shot : shots_) {
-    if (Status s = shot->set_grid(kGridPerError * error); !s.ok()) return s;
+    // Under corrections positions of the reference count for more than weights: about their RMS.
+    const double cells = bounded() && error > 0 ? shot->longest_side() / (2 * error) + 1 : 1;
+    const auto fine = static_cast<uint32_t>(std::ceil(std::log2(std::min(cells, 65536.0))));
+    if (Status s = bounded() ? shot->set_grid_bits(fine) : shot->set_grid(error); !s.ok()) return s;
   }
   return {};
 }
@@ -190,9 +231,14 @@ Status SequenceEncoder::try_setting(bool& kept) {
 
 Status SequenceEncoder::refine_grids() {
   if (!uses(coding_tool::kGridTrial)) return {};
-  for (const int direction : {-1, 1}) {
-    bool moved = false;
-    for (bool kept = true; kept;) {
+  const double doubt = shots_[0]->best_grid_bits(coordinate_error()) - shots_[0]->grid_bits();
+  int trials = std::abs(doubt) >= 0.5 - effort_.grid_doubt ? effort_.grid_trials : 0;
+  // The estimate was made for reconstructions without corrections.
+  if (bounded()) trials = effort_.base_trials;
+  const int likely = doubt > 0 ? 1 : -1;
+  bool moved = false;
+  for (const int direction : {likely, -likely}) {
+    for (bool kept = true; kept && trials > 0;) {
       std::vector<uint32_t> before;
       bool changed = false;
       for (auto& shot : shots_) {
@@ -202,6 +248,7 @@ Status SequenceEncoder::refine_grids() {
       }
       kept = false;
       if (changed) {
+        --trials;
         if (Status s = try_setting(kept); !s.ok()) return s;
       }
       moved = moved || kept;
@@ -216,6 +263,7 @@ Status SequenceEncoder::refine_grids() {
 
 Status SequenceEncoder::choose_regions() {
   if (options_.regions >= 0 || options_.profile == Profile::kThesis) return {};
+  if (options_.profile == Profile::kMain && !effort_.region_trials) return {};
   uint32_t chosen = 0;
   for (const uint32_t candidate : kRegionCandidates) {
     set_regions(candidate);
@@ -225,6 +273,21 @@ Status SequenceEncoder::choose_regions() {
     chosen = candidate;
   }
   set_regions(chosen);
+  return {};
+}
+
+Status SequenceEncoder::choose_thrift() {
+  double chosen = 1;
+  int trials = effort_.thrift_trials;
+  for (const double factor : {kThriftRatio, 1 / kThriftRatio}) {
+    for (bool kept = true; kept && trials > 0; --trials) {
+      for (auto& shot : shots_) shot->set_thrift(chosen * factor);
+      if (Status s = try_setting(kept); !s.ok()) return s;
+      if (kept) chosen *= factor;
+    }
+    if (chosen != 1) break;
+  }
+  for (auto& shot : shots_) shot->set_thrift(chosen);
   return {};
 }
 
@@ -269,24 +332,28 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
     for (auto& shot : shots_) shot->set_reeb_regions();
   }
 
-  // A coefficient's error of q/sqrt(12) spreads over the frames; most coefficients are not sent at
-  // all.
-  best_.q =
-      expected > 0 ? 2 * expected * std::sqrt(static_cast<double>(sequence_.frame_count())) : 1e-6;
-  if (Status s = bounded() ? search_base() : search(kRoughTolerance, kRoughTrials); !s.ok())
+  best_.q = guess_step(expected);
+  if (Status s = attempt(best_.q, best_); !s.ok()) return s;
+  if (bounded()) {
+    if (Status s = search_base(); !s.ok()) return s;
+  } else if (Status s = search(kNear, 2 * kNear, kRoughTrials); !s.ok()) {
     return s;
+  }
+  hold_components(!bounded());
   if (!is_error(options_.target)) {
+    // Only now the error is known that the grids are to suit.
     if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
+    if (Status s = attempt(best_.q, best_); !s.ok()) return s;
   }
   if (Status s = refine_grids(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;
-  if (!bounded()) {
-    if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
-  }
+  if (Status s = choose_thrift(); !s.ok()) return s;
+  if (Status s = finish_search(); !s.ok()) return s;
   stats = this->stats();
   if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {
     exact_ = true;  // so little error is asked for that rounding to binary32 counts
-    if (Status s = search(kTolerance, kTrials); !s.ok()) return s;
+    best_.excess = excess_of(best_);
+    if (Status s = finish_search(); !s.ok()) return s;
     stats = this->stats();
   }
   const bool missed = bounded() && stats.max_error > options_.target_value;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bitstream/status.h"
+#include "codec/enc/effort.h"
 #include "codec/enc/encoder.h"
 #include "codec/enc/shot_encoder.h"
 
@@ -36,13 +37,23 @@ class SequenceEncoder {
   ErrorSums measure(const Attempt& a) const;
   EncodeStats stats() const;
 
-  /// Finds the step that meets the target with the current settings; the result is in `best_`.
-  Status search(double tolerance, int max_trials);
+  /// From `best_` on, finds the step that meets the target with the current settings: ln(measured /
+  /// wanted) within [slack - tolerance, slack]. The result is in `best_`.
+  Status search(double slack, double tolerance, int max_trials);
+  /// The last search, for real.
+  Status finish_search();
+  /// Keeps the numbers of components of `best_`, or lets them go.
+  void hold_components(bool held);
+  /// d ln(error) / d ln q to expect; 0 where the target is a size.
+  double expected_slope(double q) const;
+  /// Step at which this error per coordinate is to be expected.
+  double guess_step(double error) const;
   /// Target::kMaxError: finds the step that makes the smallest file.
   Status search_base();
   bool bounded() const { return options_.target == Target::kMaxError; }
   Status refine_grids();
   Status choose_regions();
+  Status choose_thrift();
   /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
   Status try_setting(bool& kept);
 
@@ -54,6 +65,7 @@ class SequenceEncoder {
 
   const Sequence& sequence_;
   const EncodeOptions& options_;
+  const EffortPreset& effort_;
   std::vector<std::unique_ptr<ShotEncoder>> shots_;
   double energy_ = 0;
   double vertex_frames_ = 0;

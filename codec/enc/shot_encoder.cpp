@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint32_t kLeastBits = 9;
 constexpr uint32_t kMostBits = 16;
+// Weights need no finer reference than this; fitted to what trials chose on ten sequences.
+constexpr double kGridBase = 3.6;
+constexpr double kGridSlope = 0.6;       ///< bits per halving of the error
 constexpr uint32_t kLongestGroup = 512;  ///< frames, unless asked for
 constexpr uint64_t kGroupSamples =
     100'000'000;  ///< vertices times frames, to bound the encoder's memory
@@ -41,6 +44,7 @@ std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
 ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
                          unsigned threads)
     : shot_(shot),
+      plan_(shot.connectivity),
       first_frame_(first_frame),
       reorder_(options.reorder),
       profile_(options.profile),
@@ -79,21 +83,29 @@ double ShotEncoder::longest_side() const {
   return side;
 }
 
-Status ShotEncoder::set_grid(double step) {
-  const double wanted =
-      step > 0 ? std::ceil(std::log2(longest_side() / step + 1)) : double{kLeastBits};
-  return set_grid_bits(
-      static_cast<uint32_t>(std::clamp(wanted, double{kLeastBits}, double{kMostBits})));
+Status ShotEncoder::set_grid(double error) {
+  return set_grid_bits(static_cast<uint32_t>(std::lround(best_grid_bits(error))));
+}
+
+double ShotEncoder::best_grid_bits(double error) const {
+  const double precision = error > 0 ? std::log2(longest_side() / error) : 0;
+  return std::clamp(kGridBase + kGridSlope * precision, double{kLeastBits}, double{kMostBits});
 }
 
 Status ShotEncoder::set_grid_bits(uint32_t bits) {
   const uint32_t allowed = std::clamp(bits, kLeastBits, kMostBits);
   if (allowed == grid_bits_) return {};
-  SurfaceContext surface;
-  if (Status s = make_surface_context(shot_, allowed, {.reorder = reorder_}, surface); !s.ok())
-    return s;
-  surface_ = std::move(surface);
-  grid_bits_ = allowed;
+  if (allowed == spare_bits_) {
+    std::swap(surface_, spare_);
+    std::swap(grid_bits_, spare_bits_);
+  } else {
+    SurfaceContext surface;
+    if (Status s = make_surface_context(shot_, plan_, allowed, {.reorder = reorder_}, surface);
+        !s.ok())
+      return s;
+    spare_ = std::exchange(surface_, std::move(surface));
+    spare_bits_ = std::exchange(grid_bits_, allowed);
+  }
   fit_motion();
   return {};
 }
@@ -132,6 +144,24 @@ void ShotEncoder::fit_motion() {
     if (regions_ == 0) continue;
     group.motion = std::make_unique<MotionFit>(surface_, group.encoder->motion_targets(surface_),
                                                labels_, regions_);
+  }
+}
+
+double ShotEncoder::expected_error(double q) const {
+  double error = 0;
+  for (const Group& group : groups_) error += group.encoder->expected_error(q);
+  return error;
+}
+
+void ShotEncoder::set_thrift(double factor) {
+  for (Group& group : groups_) group.encoder->set_thrift(factor);
+}
+
+void ShotEncoder::hold_components(const std::vector<CodedGroup>& coded) {
+  for (size_t i = 0; i < groups_.size(); ++i) {
+    std::optional<uint32_t> count;
+    if (!coded.empty()) count = coded[i].component_count;
+    groups_[i].encoder->hold_components(count);
   }
 }
 

@@ -23,8 +23,11 @@ class ShotEncoder {
   ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
               unsigned threads);
 
-  /// Codes the reference mesh on a grid whose step is about `step` (world units); 9 to 16 bits.
-  Status set_grid(double step);
+  /// Codes the reference mesh on the grid that suits an RMS error of `error` per coordinate (world
+  /// units).
+  Status set_grid(double error);
+  /// Bits of that grid before rounding, 9 to 16.
+  double best_grid_bits(double error) const;
   uint32_t grid_bits() const { return grid_bits_; }
   Status set_grid_bits(uint32_t bits);
 
@@ -33,6 +36,15 @@ class ShotEncoder {
   /// Gives the motion model the regions of the Reeb graph as they are.
   void set_reeb_regions();
   uint32_t regions() const { return regions_; }
+
+  /// Squared error to expect at quantization step q, roughly.
+  double expected_error(double q) const;
+
+  /// From now on every group sends as many components as in `coded`; empty = as many as pay.
+  void hold_components(const std::vector<CodedGroup>& coded);
+
+  /// Weight of bits against squared error in decisions, relative to the usual one.
+  void set_thrift(double factor);
 
   /// Encodes every group with quantization step q.
   std::vector<CodedGroup> encode(double q);
@@ -66,6 +78,7 @@ class ShotEncoder {
   void segment_reference();
 
   const Shot& shot_;
+  ReferencePlan plan_;
   uint32_t first_frame_;
   bool reorder_;
   Profile profile_;
@@ -74,6 +87,8 @@ class ShotEncoder {
   uint32_t grid_bits_ = 0;
   uint32_t regions_ = 0;
   SurfaceContext surface_;
+  uint32_t spare_bits_ = 0;
+  SurfaceContext spare_;  ///< the grid before, which a trial may return to
   std::vector<Group> groups_;
   std::vector<uint32_t> triangles_;                     ///< of the input; made with the next two
   std::unique_ptr<segmentation::Result> reeb_regions_;  ///< when first needed

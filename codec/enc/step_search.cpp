@@ -10,19 +10,24 @@ namespace {
 
 constexpr double kErrorSlope = 0.9;  ///< d ln(error) / d ln(q), typically
 constexpr double kSizeSlope = -0.7;
+constexpr double kLongSecant = 0.2;   ///< in ln q
 constexpr double kLongestStep = 2.0;  ///< in ln q
 
 /// Trials so far, as a function of ln q; `sign` makes it an increasing one.
 class Bracket {
  public:
-  Bracket(bool grows, double aim)
-      : sign_(grows ? 1 : -1), slope_(grows ? kErrorSlope : -kSizeSlope), aim_(aim) {}
+  Bracket(const StepSearchOptions& options, double aim)
+      : sign_(options.grows ? 1 : -1), slope_(options.slope), aim_(aim) {
+    if (slope_ <= 0) slope_ = options.grows ? kErrorSlope : -kSizeSlope;
+  }
 
   void add(double x, double excess) {
     const double y = sign_ * (excess - aim_);
     if (have_last_ && std::abs(x - last_x_) > 1e-9) {
+      // Over a short step the secant is mostly noise: components come and go.
+      const double trust = std::min(1.0, std::abs(x - last_x_) / kLongSecant);
       const double secant = (y - last_y_) / (x - last_x_);
-      slope_ = std::clamp(secant, 0.15, 4.0);
+      slope_ = std::clamp(slope_ + trust * (secant - slope_), 0.15, 4.0);
     }
     last_x_ = x;
     last_y_ = y;
@@ -58,20 +63,20 @@ bool better(const StepTrial& a, const StepTrial& b) {
 
 }  // namespace
 
-StepTrial search_step(double q0, const StepSearchOptions& options,
+StepTrial search_step(const StepTrial& first, const StepSearchOptions& options,
                       const std::function<double(double)>& measure) {
-  Bracket bracket(options.grows, -options.tolerance / 2);
-  StepTrial best;
+  Bracket bracket(options, -options.tolerance / 2);
+  StepTrial best = first;
+  StepTrial trial = first;
   const double lowest = std::log(std::max(options.least_q, 1e-300));
-  double x = std::max(std::log(q0), lowest);
   for (int i = 0; i < options.max_trials; ++i) {
-    const StepTrial trial{std::exp(x), measure(std::exp(x))};
-    if (i == 0 || better(trial, best)) best = trial;
     if (trial.excess <= 0 && trial.excess >= -options.tolerance) break;
+    const double x = std::log(trial.q);
     bracket.add(x, trial.excess);
     const double next = std::max(bracket.next(), lowest);
     if (bracket.exhausted() || next == x) break;
-    x = next;
+    trial = {std::exp(next), measure(std::exp(next))};
+    if (better(trial, best)) best = trial;
   }
   return best;
 }

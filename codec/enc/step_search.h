@@ -18,11 +18,13 @@ struct StepSearchOptions {
   double tolerance = 0.008;  ///< a trial within [-tolerance, 0] of the target ends the search
   int max_trials = 12;
   double least_q = 0;  ///< finer steps are not tried
+  double slope = 0;    ///< expected |d excess / d ln q|; 0 = what is usual
 };
 
-/// Runs `measure(q)` (which returns the excess) from `q0` on, by secants within a bracket. Returns
-/// the trial nearest below the target, or the one nearest above where none is below.
-StepTrial search_step(double q0, const StepSearchOptions& options,
+/// Runs `measure(q)` (which returns the excess) by secants within a bracket; `first` is a trial
+/// already made. Returns the trial nearest below the target, or the one nearest above where none is
+/// below.
+StepTrial search_step(const StepTrial& first, const StepSearchOptions& options,
                       const std::function<double(double)>& measure);
 
 /// Looks for the q of the least `cost(q)`, taken to have one minimum, from `q0` on, by steps of a

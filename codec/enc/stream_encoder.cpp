@@ -58,8 +58,10 @@ Status StreamEncoder::Impl::open_surface(std::span<const float> xyz) {
   first.positions.assign(xyz.begin(), xyz.end());
   first.frame_count = 1;
   auto made = std::make_shared<SurfaceContext>();
+  ReferencePlan plan(first.connectivity);
   if (Status s = make_surface_context(
-          first, kGridBits, {.reorder = options.reorder, .face_order = options.face_order}, *made);
+          first, plan, kGridBits, {.reorder = options.reorder, .face_order = options.face_order},
+          *made);
       !s.ok())
     return s;
   made->header.shot = shots - 1;

@@ -37,15 +37,14 @@ std::vector<int32_t> snap(std::span<const float> xyz, const ReferenceHeader& hea
 
 }  // namespace
 
-Status make_surface_context(const Shot& shot, uint32_t bits, const ReferenceOptions& options,
-                            SurfaceContext& out) {
+Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits,
+                            const ReferenceOptions& options, SurfaceContext& out) {
   const std::span<const float> first = shot.frame(0);
   const Bounds bounds = bounds_of(first);
   std::copy(std::begin(bounds.low), std::end(bounds.low), out.header.origin);
   out.header.grid_step = static_cast<float>(bounds.side / ((1u << bits) - 1));
   const std::vector<int32_t> grid = snap(first, out.header);
-  Status status =
-      encode_reference(shot.connectivity, grid, options, out.bytes, out.mesh, out.input_of);
+  Status status = encode_reference(plan, grid, options, out.bytes, out.mesh, out.input_of);
   if (!status.ok()) return status;
   out.surface = build_surface_graph(out.points(), out.mesh.triangles);
   out.input.resize(out.mesh.vertex_count);

@@ -29,7 +29,8 @@ struct SurfaceContext {
 
 /// Codes the shot's first frame on a grid of `bits` (1 .. 16) bits along the longest side of its
 /// bounding box.
-Status make_surface_context(const Shot& shot, uint32_t bits, const ReferenceOptions& options,
-                            SurfaceContext& out);
+/// `plan` is of the shot's connectivity.
+Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits,
+                            const ReferenceOptions& options, SurfaceContext& out);
 
 }  // namespace reeb

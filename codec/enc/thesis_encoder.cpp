@@ -15,6 +15,10 @@ double slope_at(double step) { return step * step * std::log(2.0) / 6; }
 
 }  // namespace
 
+double ThesisEncoder::expected_error(double q) const {
+  return std::min(signal_.energy, q * q / 12 * static_cast<double>(signal_.trajectories.size()));
+}
+
 Eigen::MatrixXf ThesisEncoder::motion_targets(const SurfaceContext& surface) {
   Eigen::MatrixXf out(surface.rows(), signal_.trajectories.cols());
   for (Eigen::Index c = 0; c < out.cols(); ++c) {

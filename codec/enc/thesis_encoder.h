@@ -15,6 +15,7 @@ class ThesisEncoder : public GroupEncoder {
   CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                     GroupRun& run) override;
   /// Positions less the origin, column 3 t + axis.
+  double expected_error(double q) const override;
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  private:

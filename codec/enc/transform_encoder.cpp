@@ -16,10 +16,12 @@ namespace {
 constexpr double kCoefficientLambda = 0.10;  ///< bits against squared error, in q^2
 constexpr double kBasisLambda = 0.08;
 constexpr uint32_t kMostMotionComponents =
-    96;  ///< later ones carry no affine motion worth its bits
-constexpr double kMassExponent = 0.7;
+    96;                             ///< later ones carry no affine motion worth its bits
+constexpr double kLeastSent = 0.2;  ///< mean square of a component that is sent, in q^2, typically
+constexpr double kErrorWhereSent = 0.04;  ///< its squared error, in q^2
 constexpr uint32_t kPatience =
     8;  ///< components without gain after which the search for their number ends
+constexpr double kMassExponent = 0.7;
 
 /// Keeps the number of components with the lowest cost seen.
 class StopRule {
@@ -74,19 +76,28 @@ CodedGroup TransformEncoder::encode(const SurfaceContext& surface, double q,
   }
   // Components that are coded and then dropped leave no trace in what the next group continues.
   std::unique_ptr<Field> copy;
-  if (run.continued) copy = std::make_unique<Field>(*state.coefficients);
+  if (run.continued && !held_count_) copy = std::make_unique<Field>(*state.coefficients);
   Planes planes =
       encode_coefficients(surface, motion, copy != nullptr ? *copy : *state.coefficients, out);
-  if (run.continued) {
+  if (copy != nullptr) {
     decode_coefficients(out.coefficients, out.component_count, *state.coefficients);
-    state.coefficients->next_group();
   }
+  if (run.continued) state.coefficients->next_group();
   if (motion != nullptr) {
     MotionModel model = motion->quantize(out.axis_step, out.component_count);
     encode_motion(surface, model, 0, out, planes);
   }
   encode_basis(surface, planes, state.basis_contexts, out);
   return out;
+}
+
+double TransformEncoder::expected_error(double q) const {
+  const double unit = q * q * static_cast<double>(signal_.vertices());
+  double error = 0;
+  for (const double energy : transform_.energies()) {
+    error += energy < kLeastSent * unit ? energy : kErrorWhereSent * unit;
+  }
+  return error;
 }
 
 Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) {
@@ -103,14 +114,15 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
                                                            const MotionFit* motion, Field& field,
                                                            CodedGroup& out) {
   const PredictionGraph& graph = surface.surface.graph;
-  FieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent);
+  FieldEncoder encoder(field, graph, thrift_ * kCoefficientLambda, kMassExponent);
   StopRule stop(signal_.frames);
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
   std::vector<size_t> ends{0};
   std::vector<float> target(graph.size());
+  const uint32_t most = std::min(held_count_.value_or(transform_.size()), transform_.size());
   bool more = true;
-  for (uint32_t k = 0; k < transform_.size() && more; ++k) {
+  for (uint32_t k = 0; k < most && more; ++k) {
     const float* coefficients = transform_.coefficients(k);
     for (uint32_t r = 0; r < target.size(); ++r) {
       target[r] = static_cast<float>(static_cast<double>(coefficients[surface.input[r]]) / out.q);
@@ -123,12 +135,12 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
     const double bits_before = encoder.recorder().bits();
     const double error = encoder.code_component(target.data());
     ends.push_back(encoder.recorder().size());
-    more = stop.add(energy, error, encoder.recorder().bits() - bits_before);
+    more = stop.add(energy, error, encoder.recorder().bits() - bits_before) || held_count_;
   }
-  out.component_count = stop.best();
-  out.coefficients = encoder.recorder().encode(ends[stop.best()]);
+  out.component_count = held_count_ ? most : stop.best();
+  out.coefficients = encoder.recorder().encode(ends[out.component_count]);
   Planes planes;
-  for (uint32_t k = 0; k < stop.best(); ++k) planes.push_back(field.plane(k));
+  for (uint32_t k = 0; k < out.component_count; ++k) planes.push_back(field.plane(k));
   return planes;
 }
 
@@ -139,7 +151,7 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
       uses(coding_tool::kBasisRefit) ? refit.basis() : transform_.basis();
   Field field(temporal_.graph, basis_field_options(), threads_);
   std::swap(field.model(), contexts);
-  FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
+  FieldEncoder encoder(field, temporal_.graph, thrift_ * kBasisLambda, 0);
   std::vector<float> target(temporal_.order.size());
   const double mean_scale = std::sqrt(static_cast<double>(signal_.vertices())) / out.q;
   for (size_t r = 0; r < target.size(); ++r) {

@@ -15,6 +15,7 @@ class TransformEncoder : public GroupEncoder {
 
   CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                     GroupRun& run) override;
+  double expected_error(double q) const override;
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  private:

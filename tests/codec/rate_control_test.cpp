@@ -53,6 +53,29 @@ TEST_CASE("the fast profile meets its target too", "[rate_control]") {
   CHECK(encode_or_fail(sequence, options).bytes.size() < fast.bytes.size());
 }
 
+TEST_CASE("every effort meets its target, and more effort takes no more bytes", "[rate_control]") {
+  const Sequence sequence = sequence_of({animate(torus(24, 15), 20)});
+  size_t before = SIZE_MAX;
+  for (const int effort : {kLeastEffort, kDefaultEffort, kMostEffort}) {
+    EncodeOptions options = aim(Target::kKg, 0.1);
+    options.effort = effort;
+    options.regions = -1;
+    const Encoded out = encode_or_fail(sequence, options);
+    check_met(measure(sequence, decode_or_fail(out.bytes)).kg, 0.1);
+    CHECK(static_cast<double>(out.bytes.size()) < 1.01 * static_cast<double>(before));
+    before = out.bytes.size();
+  }
+}
+
+TEST_CASE("groups of any kind meet a size", "[rate_control]") {
+  for (const uint32_t open_groups : {0u, 3u}) {
+    EncodeOptions options = aim(Target::kSize, 9000);
+    options.group_length = 10;
+    options.open_groups = open_groups;
+    check_met(static_cast<double>(encode_or_fail(large_sequence(), options).bytes.size()), 9000);
+  }
+}
+
 TEST_CASE("less error takes more bytes", "[rate_control]") {
   const Sequence sequence = sequence_of({animate(torus(16, 11), 12)});
   size_t before = 0;

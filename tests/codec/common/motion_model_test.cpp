@@ -155,7 +155,8 @@ TEST_CASE("rigidly moving parts are predicted to the step of their transforms", 
   const Shape shape = torus(30, 16);
   const Shot shot = animate(shape, 15, hinge);
   SurfaceContext surface;
-  REQUIRE(make_surface_context(shot, 16, {}, surface).ok());
+  ReferencePlan plan(shot.connectivity);
+  REQUIRE(make_surface_context(shot, plan, 16, {}, surface).ok());
   TransformEncoder encoder(make_group_signal(shot, 0, 15), Profile::kMain, 1);
   const Eigen::MatrixXf targets = encoder.motion_targets(surface);
   std::vector<uint32_t> labels;

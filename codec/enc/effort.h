@@ -1,0 +1,21 @@
+// What each effort level spends time on.
+#pragma once
+
+#include <cstdint>
+
+namespace reeb {
+
+struct EffortPreset {
+  /// Half the width of the zone between two reference grids in which the estimate does not decide,
+  /// but a trial, in bits: 0 .. 0.5.
+  double grid_doubt;
+  int grid_trials;     ///< at most
+  int base_trials;     ///< steps tried under the corrections of a bounded error
+  int thrift_trials;   ///< weights of bits against error that are tried
+  bool region_trials;  ///< the motion model is tried in the main profile too
+};
+
+/// `effort`: kLeastEffort .. kMostEffort.
+const EffortPreset& effort_preset(int effort);
+
+}  // namespace reeb
