@@ -95,7 +95,7 @@ Status decode_corrections(const GroupChunk& chunk, const DecodedSurface& surface
       decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
       [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
         corrections.add(row, t, axis, c);
-        return ++count <= h.correction_count && !decoder.overrun();
+        return std::isfinite(c.value) && ++count <= h.correction_count && !decoder.overrun();
       });
   if (!in_range || count != h.correction_count || decoder.overrun())
     return Status::corrupt("the correction section is damaged");

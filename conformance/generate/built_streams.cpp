@@ -258,6 +258,12 @@ void add_corrections(Maker& m) {
   g.correction = [](uint32_t, uint32_t, uint32_t) { return Correction{}; };
   m.add("no_corrections", "The bit for corrections, and none: their section is not empty.",
         build_file(mesh, g));
+  g.correction = [](uint32_t row, uint32_t t, uint32_t) {
+    return row == 5 && t == 2 ? Correction{0, true, std::numeric_limits<float>::quiet_NaN()}
+                              : Correction{};
+  };
+  m.streams.push_back({"faulty", "correction_not_a_number", "A correction that is no number.",
+                       build_file(mesh, g), "corrupt"});
   g.correction = [](uint32_t, uint32_t t, uint32_t a) {
     return Correction{t == a ? 0 : 5, false, 0};
   };

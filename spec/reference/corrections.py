@@ -1,4 +1,6 @@
 """corrections.md: coordinates corrected after synthesis."""
+import math
+
 from .arithmetic import clamp, f32, log2_5
 from .entropy import Mixer, RangeDecoder, adaptive_bits
 from .errors import require
@@ -112,7 +114,9 @@ class Corrections:
         while length < 53 and self.lengths[context][length].decode(self.decoder):
             length += 1
         if length == 53:
-            return Value(float_of(self.decoder.decode_bits(32)))
+            value = float_of(self.decoder.decode_bits(32))
+            require(math.isfinite(value), "a corrected value is not finite")
+            return Value(value)
         steps = (1 << length) + self.decoder.decode_bits(length)
         return -steps if self.negative.decode(self.decoder, self.negative_entries(t, axis), 0) else steps
 
