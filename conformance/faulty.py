@@ -82,8 +82,11 @@ def read_reference(payload):
 
 def read_group(payload):
     f = Fields(payload)
-    h = Header(first_frame=f.uv(), frame_count=f.uv(), shot=f.uv(), profile=f.take(1), component_count=f.uv(),
-               quantization_step=f.take(4))
+    h = Header(first_frame=f.uv(), frame_count=f.uv(), shot=f.uv(), profile=f.take(1), component_count=f.uv())
+    if h["profile"] == b"\3":
+        h.update(flags=f.take(1), coefficient_bytes=f.uv(), basis_bytes=f.uv())
+        return h.but(coefficients=f.take(h["coefficient_bytes"]), basis=f.take(h["basis_bytes"]))
+    h["quantization_step"] = f.take(4)
     if h["profile"] == b"\2":
         h["axis_steps"] = f.take(12)
     h.update(region_count=f.uv(), flags=f.take(1), motion_bytes=f.uv(), coefficient_bytes=f.uv(), basis_bytes=f.uv())
@@ -289,7 +292,7 @@ def add_headers(m):
             ("above_64_bits", "A number above 2^64.", dict(total_frames=b"\xFF" * 9 + b"\2")),
             ("more_shots", "More shots than frames.", dict(shot_count=16)),
             ("missing_shot", "A shot that does not come.", dict(shot_count=2)),
-            ("head_flags", "A reserved bit of HEAD.", dict(flags=b"\1")),
+            ("head_flags", "A reserved bit of HEAD.", dict(flags=b"\x80")),
             ("negative_rate", "A negative frame rate.", dict(rates=f64(-24.0) + f64(0.0))),
             ("rate_not_a_number", "A frame rate that is no number.", dict(rates=f64(math.nan) + f64(0.0))),
             ("padded_real", "A real with a 0 at its end.", dict(rates=b"\3\x40\x38\x00" + f64(0.0))),
@@ -297,6 +300,8 @@ def add_headers(m):
         m.add(name, "corrupt", sentence, file.edited(b"HEAD", **changes))
     m.add("too_many_frames", "limit exceeded", "2^32 - 1 frames, more than a decoder need allow.",
           file.edited(b"HEAD", total_frames=UINT32))
+    m.add("open_ended_without_end", "truncated", "An open-ended file that ends behind its second group.",
+          m.sound("open_ended")[:File(m.sound("open_ended")).offsets()[4]])
     for name, sentence, changes in (
             ("origin_infinite", "An infinite origin.", dict(origin=infinite * 3)),
             ("grid_step_negative", "A negative grid_step.", dict(grid_step=struct.pack("<f", -1))),
@@ -386,6 +391,20 @@ def add_sections(m):
             ("short_corrections", "Half of the corrections.",
              dict(corrections=corrected["corrections"][:len(corrected["corrections"]) // 2]))):
         m.add(name, "corrupt", sentence, bounded.edited(b"GRUP", **changes))
+    exact = File(m.sound("lossless"))
+    h = read_group(exact.chunks[2][1])
+    raw = h["basis"]
+    for name, sentence, changes in (
+            ("lossless_more_frames", "More coded frames than component_count.", dict(component_count=5)),
+            ("lossless_no_frames", "A lossless group with component_count 0.", dict(component_count=0)),
+            ("lossless_flags", "A lossless group with a flag.", dict(flags=b"\2")),
+            ("lossless_digits", "A set of ten digits.", dict(basis=bytes([raw[0] & 0xF0 | 10]) + raw[1:])),
+            ("lossless_short_raw", "Raw bits that end early.", dict(basis=raw[:len(raw) // 2])),
+            ("lossless_long_raw", "A byte of raw bits too many.", dict(basis=raw + b"\0")),
+            ("lossless_short_code", "Half of the range code.",
+             dict(coefficients=h["coefficients"][:len(h["coefficients"]) // 2])),
+            ("lossless_distance", "A copy of a frame before the group.", dict(coefficients=bytes(8)))):
+        m.add(name, "corrupt", sentence, exact.edited(b"GRUP", **changes))
     listed = File(m.sound("listed_faces"))
     rest = read_reference(listed.chunks[1][1])["rest"]
     m.add("corner_out_of_range", "corrupt", "A listed face with a vertex that is not there.",

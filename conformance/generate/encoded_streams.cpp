@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "codec/enc/encoder.h"
+#include "codec/enc/stream_encoder.h"
 #include "conformance/generate/stream.h"
 #include "tests/codec/shapes.h"
 
@@ -58,6 +59,29 @@ void fold(const float* rest, double time, double* xyz) {
   xyz[2] = rest[1] * std::sin(angle) + rest[2] * std::cos(angle);
 }
 
+/// To three decimals, as text files have them.
+void bend_in_decimals(const float* rest, double time, double* xyz) {
+  bend(rest, time, xyz);
+  for (int a = 0; a < 3; ++a) xyz[a] = std::round(xyz[a] * 1000) / 1000;
+}
+
+/// Zeros of either sign, subnormals and the largest values among others.
+void leap(const float* rest, double time, double* xyz) {
+  constexpr double kValues[] = {-0.0, 1e-45, 3.4e38, -1e-40, 1, -3.4028234e38, 0, 1e-20, -77.125};
+  const auto i = static_cast<uint32_t>(static_cast<int>(40 * rest[0] + 9 * rest[1]) + 100) +
+                 static_cast<uint32_t>(time * 7);
+  for (uint32_t a = 0; a < 3; ++a)
+    xyz[a] = (i + a) % 3 == 0 ? kValues[(i / 3 + a) % 9] : static_cast<double>(rest[a]);
+}
+
+/// Four poses that come back, each for two frames, in 16 frames.
+void repeat(const float* rest, double time, double* xyz) {
+  bend(rest, static_cast<double>(static_cast<int>(time * 8 + 0.01) % 4) / 4, xyz);
+}
+
+/// One half never moves.
+void wag(const float* rest, double time, double* xyz) { bend(rest, rest[0] > 0 ? time : 0, xyz); }
+
 Shape shuffled(const Shape& shape) {
   const uint32_t n = shape.connectivity.vertex_count;
   Shape out = shape;
@@ -79,16 +103,19 @@ Shape one_triangle() {
   return s;
 }
 
+void check(const std::string& name, const Status& status) {
+  if (status.ok()) return;
+  std::fprintf(stderr, "%s: %s\n", name.c_str(), status.message().c_str());
+  std::exit(1);
+}
+
 class Maker {
  public:
   void add(const char* name, const char* sentence, const Sequence& sequence,
            const EncodeOptions& options) {
     Stream stream{"core", name, sentence, {}};
     EncodeStats stats;
-    if (const Status s = encode(sequence, options, stream.bytes, stats); !s.ok()) {
-      std::fprintf(stderr, "%s: %s\n", name, s.message().c_str());
-      std::exit(1);
-    }
+    check(name, encode(sequence, options, stream.bytes, stats));
     streams.push_back(std::move(stream));
   }
   void add(const char* name, const char* sentence, const Shape& shape, uint32_t frames,
@@ -170,6 +197,55 @@ void add_profiles(Maker& m) {
         6, with(at(0.3), Profile::kThesis, 4), fold);
 }
 
+void add_lossless(Maker& m) {
+  EncodeOptions exact = at(1);
+  exact.target = Target::kLossless;
+  m.add("lossless", "Every bit of a bending torus.", torus(12, 8), 6, exact);
+  m.add("lossless_decimals", "Positions of three decimals.", torus(12, 8), 6, exact,
+        bend_in_decimals);
+  m.add("lossless_extremes", "Zeros of either sign, subnormals and the largest values.", grid(7, 6),
+        5, exact, leap);
+  m.add("lossless_repeats", "Poses that come back: frames that are copies.", torus(8, 6), 16, exact,
+        repeat);
+  m.add("lossless_still", "Nothing moves.", torus(8, 6), 5, exact, rest);
+  m.add("lossless_parts", "One half never moves.", torus(12, 8), 8, exact, wag);
+  m.add("lossless_points", "No faces.", points_only(40), 4, exact);
+  EncodeOptions quick = exact;
+  quick.effort = 1;
+  m.add("lossless_quick", "The quick method.", torus(12, 8), 14, quick);
+  m.add("lossless_quick_extremes", "The quick method on values far from each other.", grid(7, 6), 5,
+        quick, leap);
+  EncodeOptions reorder = exact;
+  reorder.reorder = true;
+  m.add("lossless_order_dropped", "Every bit, but in coding order.", grid(8, 7), 3, reorder);
+  m.add("lossless_vertex", "One vertex: no neighbours at all.", single_vertex(), 6, exact);
+  Sequence shots = sequence_of({animate(mixed_polygons(), 7), animate(fins(5), 2)});
+  EncodeOptions groups = exact;
+  groups.group_length = 3;
+  m.add("lossless_shots", "Two shots in groups of three frames.", shots, groups);
+}
+
+/// A file that is written as its frames arrive.
+Stream open_ended() {
+  Stream stream{
+      "core", "open_ended", "A file whose HEAD does not know how many frames there are.", {}};
+  const Shot shot = animate(torus(8, 6), 7);
+  StreamEncoder encoder({.group_length = 3, .threads = 1}, [&](std::span<const uint8_t> bytes) {
+    stream.bytes.insert(stream.bytes.end(), bytes.begin(), bytes.end());
+    return true;
+  });
+  constexpr uint32_t kMost = 0xFFFFFFFF;
+  const SequenceHeader header = {
+      .total_frames = kMost, .shot_count = kMost, .flags = SequenceHeader::kOpenEnded};
+  Status status = encoder.begin(header, {});
+  if (status.ok()) status = encoder.begin_shot(shot.connectivity);
+  for (uint32_t t = 0; t < shot.frame_count && status.ok(); ++t)
+    status = encoder.add_frame(shot.frame(t));
+  if (status.ok()) status = encoder.finish();
+  check(stream.name, status);
+  return stream;
+}
+
 }  // namespace
 
 std::vector<Stream> encoded_streams() {
@@ -177,6 +253,8 @@ std::vector<Stream> encoded_streams() {
   add_meshes(m);
   add_groups(m);
   add_profiles(m);
+  add_lossless(m);
+  m.streams.push_back(open_ended());
   return m.streams;
 }
 
