@@ -40,6 +40,26 @@ class BinaryNumbers:
         return signed(float_of(rank), number)
 
 
+class Multiples:
+    """Section 1: multiples of a step."""
+    END = 1 << 39
+
+    def __init__(self, step):
+        self.step = step
+
+    def nearest(self, x):
+        n = x / self.step + 0.5
+        return math.floor(clamp(n, 1 - self.END, self.END - 1))
+
+    def spacing(self, number):
+        return 0
+
+    def value(self, number):
+        x = f32(number * self.step)
+        require(-self.END <= number < self.END and math.isfinite(x), "a number that is not in the set")
+        return x
+
+
 class Decimals:
     """Section 1: decimals of at most `digits` digits and `decimals` places."""
 
@@ -95,6 +115,11 @@ def signed(x, number):
 
 def decode_set(raw):
     digits = raw.raw(4)
+    if digits == 15:
+        low, high = raw.raw(32), raw.raw(32)
+        step = struct.unpack("<d", struct.pack("<II", low, high))[0]
+        require(2.0 ** -1022 <= step <= LARGEST_F32, "a step out of range")
+        return Multiples(step)
     require(digits <= 9, "a set of too many digits")
     if digits == 0:
         return BinaryNumbers()
