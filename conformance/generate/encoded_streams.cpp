@@ -51,6 +51,14 @@ void scatter(const float* rest, double time, double* xyz) {
   }
 }
 
+/// Noise: no vertex and no frame tells of another.
+void shake(const float* rest, double time, double* xyz) {
+  for (int a = 0; a < 3; ++a) {
+    const double x = std::sin(1e4 * time + 91.7 * rest[0] + 47.3 * rest[1] + 13.1 * rest[2] + a);
+    xyz[a] = static_cast<double>(rest[a]) + std::fmod(static_cast<float>(x) * 4373.7, 0.5);
+  }
+}
+
 /// Two halves that turn about each other, as regions do.
 void fold(const float* rest, double time, double* xyz) {
   const double angle = rest[0] > 0 ? 0.8 * time : -0.5 * time;
@@ -189,6 +197,8 @@ void add_profiles(Maker& m) {
         with_isolated(grid(16, 12), 4), 12, with(at(0.1), Profile::kFast, 4, 7), fold);
   m.add("bounded", "Every coordinate's error bounded by corrections.", torus(16, 11), 10,
         bounded(0.002), scatter);
+  m.add("bounded_noise", "Noise under a bound: numbers moved to multiples of a step.", torus(9, 7),
+        6, bounded(0.01), shake);
   m.add("bounded_groups", "The same in groups, with vertices that are far off.",
         with_isolated(grid(16, 12), 6), 9, with(bounded(0.01), Profile::kFast, 2, 4), fold);
   m.add("thesis", "Thesis profile.", torus(12, 8), 5, with(at(0.3), Profile::kThesis));
