@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/common/difference_history.h"
 #include "codec/common/displacement_predictor.h"
 #include "codec/common/mesh_state.h"
 #include "codec/common/number_set.h"
@@ -28,59 +29,54 @@ class FrameCoder {
   /// a decoder meets what no encoder writes.
   template <class Bits, class Raw>
   bool code(Bits& bits, Raw& raw, float* frame) {
-    for (uint32_t row = 0; row < graph_.size(); ++row) {
-      if (!code_row(bits, raw, row, frame + size_t{row} * 3)) return false;
-    }
+    const bool fine =
+        quick_ ? code_rows(bits, raw, quick_model_, frame) : code_rows(bits, raw, model_, frame);
     predictor_.finish_frame();
-    ++frames_;
-    return true;
+    first_ = false;
+    return fine;
   }
 
   /// The next frame is predicted from this one, which is a copy of one already coded.
   void jump(const std::vector<float>& frame) { predictor_.jump(frame); }
 
  private:
-  /// Of a row and axis: sizes in world units (see `DifferenceContext`), and signs.
-  struct Trace {
-    std::array<int16_t, 4> size{};
-    std::array<int16_t, 4> older{};
-    std::array<int8_t, 4> sign{};
-    uint8_t still = 0;  ///< frames without motion, up to kLongStill
-  };
+  template <class Bits, class Raw, class Model>
+  bool code_rows(Bits& bits, Raw& raw, Model& model, float* frame) {
+    for (uint32_t row = 0; row < graph_.size(); ++row) {
+      if (!code_row(bits, raw, model, row, frame + size_t{row} * 3)) return false;
+    }
+    return true;
+  }
 
-  template <class Bits, class Raw>
-  bool code_row(Bits& bits, Raw& raw, uint32_t row, float* xyz) {
+  template <class Bits, class Raw, class Model>
+  bool code_row(Bits& bits, Raw& raw, Model& model, uint32_t row, float* xyz) {
     const std::array<double, 3> predicted = predictor_.predict(row);
     const float* last = predictor_.last(row);
-    const bool same = still_[still_context(row)].code(bits, equal(xyz, last), kStillLimit);
-    Trace& trace = traces_[row];
-    if (same) {
-      trace.still = static_cast<uint8_t>(std::min<uint32_t>(trace.still + 1u, kLongStill));
+    AdaptiveBit& still = still_[history_.still_context(row)];
+    if (still.code(bits, equal(xyz, last), kStillLimit)) {
+      history_.note_still(row);
       std::copy_n(last, 3, xyz);
     } else {
-      trace.still = 0;
-      gather(row);
+      history_.open_row(row);
       for (uint32_t a = 0; a < 3; ++a) {
-        if (!code_coordinate(bits, raw, row, a, predicted[a], xyz[a])) return false;
+        if (!code_coordinate(bits, raw, model, row, a, predicted[a], xyz[a])) return false;
       }
     }
     predictor_.place(row, xyz, predicted);
     return true;
   }
 
-  template <class Bits, class Raw>
-  bool code_coordinate(Bits& bits, Raw& raw, uint32_t row, uint32_t axis, double predicted,
-                       float& x) {
+  template <class Bits, class Raw, class Model>
+  bool code_coordinate(Bits& bits, Raw& raw, Model& model, uint32_t row, uint32_t axis,
+                       double predicted, float& x) {
     const NumberSet& set = sets_[axis];
     const int64_t guess = set.nearest(predicted);
     const int32_t unit = set.spacing(guess);
-    const DifferenceContext c = context(row, axis, unit);
+    const DifferenceContext c = history_.context(row, axis, unit, first_);
     bool member = true;
     int64_t n = 0;
     if constexpr (!kDecodes<Bits>) n = set.find(x, member) - guess;
-    const bool difference = quick_ ? quick_model_.code(bits, raw, c, !member, n)
-                                   : model_.code(bits, raw, c, !member, n);
-    if (!difference) {
+    if (!model.code(bits, raw, c, !member, n)) {
       x = std::bit_cast<float>(raw.code(std::bit_cast<uint32_t>(x), 32));
       n = 0;
       if (!std::isfinite(x)) return false;
@@ -88,7 +84,7 @@ class FrameCoder {
       if (!set.valid(guess + n)) return false;
       x = set.number(guess + n);
     }
-    note(row, axis, unit, n);
+    history_.note(row, axis, unit, n);
     return true;
   }
 
@@ -99,26 +95,17 @@ class FrameCoder {
     return true;
   }
 
-  uint32_t still_context(uint32_t row) const;
-  /// Puts together what the neighbours tell of a row.
-  void gather(uint32_t row);
-  DifferenceContext context(uint32_t row, uint32_t axis, int32_t unit) const;
-  void note(uint32_t row, uint32_t axis, int32_t unit, int64_t n);
-
-  static constexpr uint32_t kLongStill = 7;
   static constexpr uint32_t kStillLimit = 1000;
 
   const PredictionGraph& graph_;
   NumberSets sets_;
   DisplacementPredictor predictor_;
+  DifferenceHistory history_;
   bool quick_;
+  bool first_ = true;  ///< no frame is coded yet
   RankModel model_;
   QuickRankModel quick_model_;
-  AdaptiveBit still_[(kLongStill + 1) * 3 * 3];
-  std::vector<Trace> traces_;
-  std::array<int32_t, 3> ring_{};  ///< of the row in hand: mean size over the neighbours, by axis
-  std::array<int32_t, 3> running_{};  ///< decaying mean size over the rows, times 16
-  uint32_t frames_ = 0;
+  AdaptiveBit still_[DifferenceHistory::kStillContexts];
 };
 
 }  // namespace reeb
