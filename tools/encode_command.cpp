@@ -172,7 +172,8 @@ void add_target_options(CLI::App& command, Options& o) {
                             },
                             "Bytes of the file, not exceeded; suffixes k, M, KiB, MiB, GiB")
                         ->type_name("BYTES"));
-  targets.push_back(command.add_flag("--lossless", o.lossless, "Keep every bit of every position"));
+  targets.push_back(command.add_flag("--lossless", o.lossless,
+                                     "Keep every bit of every position, and the order of faces"));
   for (size_t i = 0; i < targets.size(); ++i) {
     targets[i]->group(group);
     for (size_t j = 0; j < i; ++j) targets[i]->excludes(targets[j]);
@@ -190,7 +191,9 @@ void add_coding_options(CLI::App& command, Options& o) {
       ->group(group);
   command
       .add_option("--effort", o.encoder.effort,
-                  "1 (quickest) to 9 (smallest): encoding time traded for rate; default 5")
+                  "1 (quickest) to 9 (smallest): encoding time traded for rate; lossless, 1 to 3 "
+                  "also decode "
+                  "about four times as quick; default 5")
       ->check(CLI::Range(kLeastEffort, kMostEffort).description(""))
       ->type_name("N")
       ->group(group);
@@ -199,6 +202,7 @@ void add_coding_options(CLI::App& command, Options& o) {
           "--open-groups", o.encoder.open_groups,
           "Groups in a row, 0 to 63, that may continue the group before: smaller, but a seek "
           "decodes the whole run; default 0")
+      ->excludes("--lossless")
       ->check(CLI::Range(0u, kMostOpenGroups).description(""))
       ->type_name("N")
       ->group(group);
@@ -211,6 +215,7 @@ void add_coding_options(CLI::App& command, Options& o) {
           "--profile", [&o](const std::string& name) { o.encoder.profile = profile_of(name); },
           "main (smallest), fast (decodes quicker) or thesis (Hachani's chain, for comparison); "
           "default main")
+      ->excludes("--lossless")
       ->check(CLI::IsMember({"main", "fast", "thesis"}).description(""))
       ->type_name("NAME")
       ->group(group);
@@ -226,6 +231,7 @@ void add_coding_options(CLI::App& command, Options& o) {
           "Regions of the motion model, 0 = none; default auto (by rate and distortion; in the "
           "main "
           "profile, where it rarely pays, tried at effort 9 only)")
+      ->excludes("--lossless")
       ->type_name("N")
       ->group(group);
 }

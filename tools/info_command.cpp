@@ -52,7 +52,8 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
                               {"regions", g.region_count},
                               {"components", g.component_count},
                               {"bytes", g.bytes},
-                              {"continues", g.continues}});
+                              {"continues", g.continues},
+                              {"lossless", g.lossless}});
   }
   for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
   for (const auto& [key, value] : info.metadata) json["metadata"][key] = value;
@@ -75,9 +76,14 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
   out << counted(info.groups.size(), "group") << "\n";
   for (const auto& g : info.groups) {
     out << "  frames " << grouped(g.first_frame + 1) << " to "
-        << grouped(g.first_frame + g.frame_count) << ": " << counted(g.component_count, "component")
-        << ", " << counted(g.region_count, "region") << ", " << byte_size(g.bytes)
-        << (g.continues ? ", continues the group before" : "") << "\n";
+        << grouped(g.first_frame + g.frame_count) << ": ";
+    if (g.lossless) {
+      out << "lossless, " << counted(g.component_count, "coded frame");
+    } else {
+      out << counted(g.component_count, "component") << ", " << counted(g.region_count, "region");
+    }
+    out << ", " << byte_size(g.bytes) << (g.continues ? ", continues the group before" : "")
+        << "\n";
   }
   for (const auto& s : info.sections) out << "  " << s.name << ": " << byte_size(s.bytes) << "\n";
   for (const auto& [key, value] : info.metadata) out << "  " << key << " = " << value << "\n";

@@ -71,7 +71,7 @@ StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
   for (const GroupChunk& g : container.groups) {
     const GroupHeader& h = g.header;
     info.groups.push_back({h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count,
-                           g.size, g.continues()});
+                           g.size, g.continues(), h.profile == Profile::kLossless});
     if (const ReferenceChunk* r = container.reference(h.shot)) {
       info.shots[static_cast<size_t>(r - container.references.data())].frame_count += h.frame_count;
     }

@@ -27,7 +27,7 @@ Limits tight_limits() {
 }
 
 /// Two shots, three groups, regions, metadata.
-Bytes small_stream(Profile profile) {
+Bytes small_stream(Profile profile, int effort = kDefaultEffort) {
   Sequence sequence = sequence_of({animate(torus(8, 6), 6), animate(mixed_polygons(), 2)});
   sequence.metadata = {{"name", "hostile"}};
   EncodeOptions options = quick_options();
@@ -37,6 +37,7 @@ Bytes small_stream(Profile profile) {
   options.profile = profile;
   options.open_groups = 1;
   if (profile == Profile::kLossless) options.target = Target::kLossless;
+  options.effort = effort;
   return encode_or_fail(sequence, options).bytes;
 }
 
@@ -169,9 +170,10 @@ TEST_CASE("flipped bits behind right checksums never crash", "[hostile]") {
 
 TEST_CASE("bytes overwritten in runs never crash", "[hostile]") {
   std::mt19937 random(2);
-  const Bytes whole = small_stream(Profile::kMain);
-  for (int round = 0; round < 500; ++round) {
-    Bytes bytes = whole;
+  const Bytes streams[] = {small_stream(Profile::kMain), small_stream(Profile::kLossless),
+                           small_stream(Profile::kLossless, 1)};
+  for (int round = 0; round < 900; ++round) {
+    Bytes bytes = streams[round / 3 % 3];
     const size_t begin = 8 + random() % (bytes.size() - 8);
     const size_t end = std::min<size_t>(bytes.size(), begin + 1 + random() % 40);
     for (size_t i = begin; i < end; ++i)
@@ -182,7 +184,8 @@ TEST_CASE("bytes overwritten in runs never crash", "[hostile]") {
 }
 
 TEST_CASE("absurd counts are refused before they are believed", "[hostile]") {
-  const Bytes whole = small_stream(Profile::kMain);
+  const Profile profile = GENERATE(Profile::kMain, Profile::kLossless);
+  const Bytes whole = small_stream(profile);
   REQUIRE(rewrite(whole, {}).size() > 0);
   std::vector<Changes> all;
   for (const uint32_t n : kMany) {
