@@ -42,7 +42,7 @@ class Configuration:
         """`programs` names the executables: reeb, or the driver."""
         if self.peer:
             return [programs[self.peer + "_peer"], "encode", setting, stream, *inputs]
-        target = () if self.unit == "lossless" else ("--" + self.unit, setting)
+        target = ("--lossless",) if self.unit == "lossless" else ("--" + self.unit, setting)
         return [programs["reeb"], "encode", *inputs, "-o", stream, *target, *self.options, "-T", "1", "--json", "-q"]
 
     def decode_command(self, programs, stream, decoded):
@@ -71,7 +71,9 @@ ALL = (
     _reeb("without-motion", "without the motion model", "--regions", "0", group="ablation", targets=ABLATION_TARGETS),
     _reeb("reeb-bounded", "Reeb, error bounded", group="bounded", targets=("0.1%", "0.01%", "0.001%"),
           unit="max-error"),
-    _reeb("reeb-lossless", "Reeb, lossless", "--lossless", group="lossless", targets=("",), unit="lossless"),
+    _reeb("reeb-lossless", "Reeb, lossless", group="lossless", targets=("",), unit="lossless"),
+    _reeb("reeb-lossless-quick", "Reeb, lossless, effort 1", "--effort", "1", group="lossless", targets=("",),
+          unit="lossless"),
     _peer("pca", "PCA with parallelograms", "kg", KG_TARGETS),
     _peer("draco", "Draco, frame by frame", "bits", map(str, range(7, 15))),
     _peer("meshopt", "meshoptimizer and zstd", "bits", map(str, range(7, 17))),

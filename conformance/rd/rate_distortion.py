@@ -44,9 +44,9 @@ class Programs:
     def lacking(self, configuration):
         """The program that a configuration needs and the build lacks, or the option; empty if there is none."""
         name = configuration.peer + "_peer" if configuration.peer else "reeb"
-        if not os.path.exists(self.paths.get(name, "")):
-            return name
-        options = [o for o in configuration.options if o.startswith("--")]
+        if configuration.peer or not os.path.exists(self.paths[name]):
+            return "" if os.path.exists(self.paths.get(name, "")) else name
+        options = [o for o in ("--" + configuration.unit, *configuration.options) if o.startswith("--")]
         return next((option for option in options if option not in self._help()), "")
 
     def version(self, configuration):

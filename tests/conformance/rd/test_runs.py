@@ -25,7 +25,7 @@ import table  # noqa: E402
 # A shell script, since it runs often.
 FAKE = r"""#!/bin/sh
 here=$(dirname "$0")
-case "$*" in *--help*) echo "--profile --reorder"; exit;; esac
+case "$*" in *--help*) echo "--kg --profile --reorder"; exit;; esac
 case $(basename "$0") in
 reeb)
   while [ $# -gt 0 ]; do
