@@ -14,6 +14,14 @@ constexpr uint32_t kRecent = 4;    ///< rows over which the recent mean fades
 constexpr double kFading = 0.5;    ///< of what a group knows about weights, in the next one
 constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
 
+/// 2^50 / step, rounded up, of every level.
+const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
+  std::array<uint64_t, kStepLevels> out{};
+  for (uint32_t i = 0; i < kStepLevels; ++i)
+    out[i] = ((uint64_t{1} << 50) + kStepTable[i] - 1) / kStepTable[i];
+  return out;
+}();
+
 uint32_t level_of(uint32_t row, uint32_t rows) {
   return std::min(7u, log2_q5(std::max(1u, rows / (row + 1))) / 32);
 }
@@ -91,7 +99,10 @@ Surroundings Field::surroundings(uint32_t row) const {
   }
   for (uint32_t i = r.ring; i < r.count; ++i) extra += magnitude_[r.neighbour[i]];
   const uint32_t step = step_of(row);
-  const auto relative = [step](uint64_t x) {
+  // (x << 16) / step, by a product where that is exact: x * inverse errs by less than 2^34 / step.
+  const uint64_t inverse = kInverseSteps[options_.predict ? graph_.step_level[row] : 0];
+  const auto relative = [step, inverse](uint64_t x) {
+    if (x < 1u << 18) return static_cast<uint32_t>(x * inverse >> 34);
     return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / step, kMagnitudeCap));
   };
   Surroundings s;
