@@ -36,12 +36,15 @@ using AccumulateKernel = void (*)(WeightBatch&, const float* values, double inve
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
 
-/// For each axis a: sum[a][i] = (0 + scale[a][0] * planes[0][i]) + scale[a][1] * planes[1][i] +
-/// ..., i < count, scale[a][k] being scale[a * plane_count + k]. All three at once, since reading
-/// the planes is what takes time. Plain pointers: inline members of containers, compiled for one
-/// instruction set, could be linked in for all.
-using CombineKernel = void (*)(const float* const* planes, uint32_t plane_count, const float* scale,
-                               uint32_t count, float* const sum[3]);
+inline constexpr uint32_t kTileRows = 32;
+
+/// Positions of kTileRows rows in one frame. For each axis a: sum[i] = (0 + scale[a][0] *
+/// tile[0][i]) + scale[a][1] * tile[1][i] + ..., scale[a][k] being scale[a * plane_count + k], then
+/// out[a][i] = sum[i] + mean[a] in binary64, rounded. `tile` is [plane][row]: all of a tile lies
+/// together, so that reading it is what memory does best. Plain pointers: inline members of
+/// containers, compiled for one instruction set, could be linked in for all.
+using CombineKernel = void (*)(const float* tile, uint32_t plane_count, const float* scale,
+                               const double mean[3], float (*out)[kTileRows]);
 
 struct Kernels {
   AccumulateKernel accumulate;

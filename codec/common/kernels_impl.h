@@ -110,32 +110,29 @@ constexpr uint32_t kFloats = 4;
 /// A vector register of floats.
 using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
 
-void combine_scalar(const float* const* planes, uint32_t plane_count, const float* scale,
-                    uint32_t i, float* const sum[3]) {
-  for (uint32_t a = 0; a < 3; ++a) {
-    float total = 0;
-    for (uint32_t k = 0; k < plane_count; ++k) total += scale[a * plane_count + k] * planes[k][i];
-    sum[a][i] = total;
-  }
-}
+using Doubles = double __attribute__((vector_size(kFloats * sizeof(double))));
 
-void combine(const float* const* planes, uint32_t plane_count, const float* scale, uint32_t count,
-             float* const sum[3]) {
+void combine(const float* tile, uint32_t plane_count, const float* scale, const double mean[3],
+             float (*out)[kTileRows]) {
   constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
-  constexpr uint32_t kChunk = kFloats * kVectors;
-  uint32_t i = 0;
-  for (; i + kChunk <= count; i += kChunk) {
+  for (uint32_t i = 0; i < kTileRows; i += kFloats * kVectors) {
     Floats total[3][kVectors] = {};
     for (uint32_t k = 0; k < plane_count; ++k) {
-      for (uint32_t j = 0; j < kVectors; ++j) {
-        Floats values;
-        std::memcpy(&values, planes[k] + i + j * kFloats, sizeof values);  // not aligned
-        for (uint32_t a = 0; a < 3; ++a) total[a][j] += scale[a * plane_count + k] * values;
+      Floats values[kVectors];
+      std::memcpy(values, tile + size_t{k} * kTileRows + i, sizeof values);
+      for (uint32_t a = 0; a < 3; ++a) {
+        for (uint32_t j = 0; j < kVectors; ++j)
+          total[a][j] += scale[a * plane_count + k] * values[j];
       }
     }
-    for (uint32_t a = 0; a < 3; ++a) std::memcpy(sum[a] + i, total[a], sizeof total[a]);
+    for (uint32_t a = 0; a < 3; ++a) {
+      for (uint32_t j = 0; j < kVectors; ++j) {
+        const Doubles moved = __builtin_convertvector(total[a][j], Doubles) + mean[a];
+        const Floats rounded = __builtin_convertvector(moved, Floats);
+        std::memcpy(out[a] + i + j * kFloats, &rounded, sizeof rounded);
+      }
+    }
   }
-  for (; i < count; ++i) combine_scalar(planes, plane_count, scale, i, sum);
 }
 
 }  // namespace

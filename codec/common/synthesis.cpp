@@ -9,8 +9,15 @@ namespace reeb {
 GroupSynthesis::GroupSynthesis(std::vector<std::vector<float>> planes,
                                const std::vector<std::vector<float>>& basis,
                                std::vector<double> mean)
-    : planes_(std::move(planes)), mean_(std::move(mean)) {
-  const size_t k_count = planes_.size();
+    : component_count_(static_cast<uint32_t>(planes.size())), mean_(std::move(mean)) {
+  const size_t k_count = planes.size();
+  const size_t rows = planes.empty() ? 0 : planes[0].size();
+  tiles_.resize((rows + kTileRows - 1) / kTileRows * kTileRows * k_count, 0.0f);
+  for (size_t k = 0; k < k_count; ++k) {
+    for (size_t row = 0; row < rows; ++row)
+      tiles_[(row / kTileRows * k_count + k) * kTileRows + row % kTileRows] = planes[k][row];
+    planes[k] = {};  // not twice in memory
+  }
   basis_.resize(mean_.size() * k_count);
   for (size_t k = 0; k < k_count; ++k) {
     for (size_t row = 0; row < mean_.size(); ++row) basis_[row * k_count + k] = basis[k][row];
@@ -29,17 +36,19 @@ bool GroupSynthesis::finite() const {
          std::all_of(basis_.begin(), basis_.end(), [](float x) { return std::isfinite(x); });
 }
 
-void GroupSynthesis::sum_components(uint32_t t, const float* const* planes, uint32_t count,
-                                    float* const sum[3]) const {
-  const auto plane_count = static_cast<uint32_t>(planes_.size());
+void GroupSynthesis::tile_positions(uint32_t t, uint32_t first, uint32_t count,
+                                    float (*out)[kTileRows]) const {
+  const double* mean = &mean_[size_t{t} * 3];
   if (!direct_) {
-    const float* scale = basis_.data() + size_t{t} * 3 * plane_count;
-    kernels_.combine(planes, plane_count, scale, count, sum);
+    const float* tile = tiles_.data() + size_t{first} * component_count_;
+    const float* scale = basis_.data() + size_t{t} * 3 * component_count_;
+    kernels_.combine(tile, component_count_, scale, mean, out);
     return;
   }
   for (uint32_t a = 0; a < 3; ++a) {
-    const float* plane = planes[size_t{t} * 3 + a];
-    for (uint32_t i = 0; i < count; ++i) sum[a][i] = basis_[a] * plane[i];
+    const float* plane = planes_[size_t{t} * 3 + a].data() + first;
+    for (uint32_t i = 0; i < count; ++i)
+      out[a][i] = static_cast<float>(mean[a] + static_cast<double>(basis_[a] * plane[i]));
   }
 }
 
@@ -47,20 +56,14 @@ void GroupSynthesis::frame(uint32_t t, std::span<const uint32_t> output, float* 
                            size_t stride) const {
   if (exact_.frame_count() > 0) return exact_.frame(t, output, xyz, stride);
   const auto rows = static_cast<uint32_t>(output.size());
-  const double* mean = &mean_[size_t{t} * 3];
-  float x[kBlock], y[kBlock], z[kBlock];
-  float* const sum[3] = {x, y, z};
-  std::vector<const float*> planes;
-  for (const std::vector<float>& plane : planes_) planes.push_back(plane.data());
-  for (uint32_t begin = 0; begin < rows; begin += kBlock) {
-    const uint32_t count = std::min(kBlock, rows - begin);
-    sum_components(t, planes.data(), count, sum);
+  float tile[3][kTileRows];
+  for (uint32_t first = 0; first < rows; first += kTileRows) {
+    const uint32_t count = std::min(kTileRows, rows - first);
+    tile_positions(t, first, count, tile);
     for (uint32_t i = 0; i < count; ++i) {
-      float* p = xyz + output[begin + i] * stride;
-      for (uint32_t a = 0; a < 3; ++a)
-        p[a] = static_cast<float>(mean[a] + static_cast<double>(sum[a][i]));
+      float* p = xyz + output[first + i] * stride;
+      for (uint32_t a = 0; a < 3; ++a) p[a] = tile[a][i];
     }
-    for (const float*& plane : planes) plane += count;
   }
   corrections_.apply(t, output, xyz, stride);
 }

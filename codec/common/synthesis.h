@@ -42,7 +42,7 @@ class GroupSynthesis {
   bool finite() const;
   /// Mean trajectory and the K basis values of row = time * 3 + axis, world units.
   double mean(size_t row) const { return mean_[row]; }
-  const float* basis(size_t row) const { return basis_.data() + row * planes_.size(); }
+  const float* basis(size_t row) const { return basis_.data() + row * component_count_; }
 
   /// x(v, t) = round(mean(t) + sum_k basis_k(t) plane_k(v)): the sum in binary32 in the order of k,
   /// the last addition in binary64, rounded once to binary32, then corrected. Row r is written to
@@ -50,14 +50,12 @@ class GroupSynthesis {
   void frame(uint32_t t, std::span<const uint32_t> output, float* xyz, size_t stride) const;
 
  private:
-  static constexpr uint32_t kBlock =
-      512;  ///< rows summed at once; they stay in the first-level cache
+  /// Rows first .. first + count - 1 of a tile, before corrections.
+  void tile_positions(uint32_t t, uint32_t first, uint32_t count, float (*out)[kTileRows]) const;
 
-  /// `planes` point at the block's first row of each plane.
-  void sum_components(uint32_t t, const float* const* planes, uint32_t count,
-                      float* const sum[3]) const;
-
-  std::vector<std::vector<float>> planes_;
+  std::vector<std::vector<float>> planes_;  ///< thesis profile
+  uint32_t component_count_ = 0;
+  std::vector<float> tiles_;  ///< [tile][component][row], kTileRows rows a tile, padded with 0
   std::vector<float> basis_;  ///< [time][axis][component]; [axis] in the thesis profile
   bool direct_ = false;       ///< planes are coordinates: the thesis profile
   std::vector<double> mean_;

@@ -229,8 +229,9 @@ namespace {
 /// Appends the group's frames to `shot`, which has all earlier ones.
 Status append_group(Decoder& decoder, const StreamInfo::Group& group, Shot& shot) {
   const size_t frame_size = size_t{shot.connectivity.vertex_count} * 3;
-  shot.positions.resize(frame_size * (shot.frame_count + group.frame_count));
   for (uint32_t t = 0; t < group.frame_count; ++t) {
+    // Frame by frame, so that what is zeroed is still in the cache when it is written.
+    shot.positions.resize(frame_size * (shot.frame_count + 1));
     float* xyz = shot.positions.data() + frame_size * shot.frame_count++;
     if (Status s = decoder.decode_frame(group.first_frame + t, xyz, 3); !s.ok()) return s;
   }
