@@ -7,25 +7,41 @@
 
 namespace reeb {
 
+namespace {
+constexpr size_t kCrcBytes = 4;
+}
+
 bool is_chunk_type(const ChunkType& type) {
   return std::all_of(type.begin(), type.end(),
                      [](uint8_t c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
 }
 
-ChunkResult read_chunk(std::span<const uint8_t> file, uint64_t offset, Chunk& chunk) {
-  ByteReader in(file.subspan(static_cast<size_t>(offset)));
+ChunkResult read_chunk_front(std::span<const uint8_t> front, uint64_t offset, uint64_t available,
+                             Chunk& chunk) {
+  ByteReader in(front);
   const auto type = in.take(chunk.type.size());
   if (!in.ok()) return ChunkResult::kCut;
   std::copy(type.begin(), type.end(), chunk.type.begin());
   chunk.offset = offset;
   if (!is_chunk_type(chunk.type)) return ChunkResult::kNoChunk;
-  const uint64_t length = in.varuint();
+  chunk.payload_size = in.varuint();
   if (!in.ok()) return in.ran_out() ? ChunkResult::kCut : ChunkResult::kNoChunk;
   chunk.payload_offset = offset + in.position();
-  chunk.payload = in.take(length);
-  const uint32_t stored = in.u32();
-  if (!in.ok()) return ChunkResult::kCut;
-  chunk.size = in.position();
+  const uint64_t rest = available - in.position();
+  if (rest < kCrcBytes || chunk.payload_size > rest - kCrcBytes) return ChunkResult::kCut;
+  chunk.size = in.position() + chunk.payload_size + kCrcBytes;
+  return ChunkResult::kFound;
+}
+
+ChunkResult read_chunk(std::span<const uint8_t> file, uint64_t offset, Chunk& chunk) {
+  const auto bytes = file.subspan(static_cast<size_t>(offset));
+  const auto front = bytes.first(std::min(bytes.size(), kMaxFrontBytes));
+  const ChunkResult result = read_chunk_front(front, offset, bytes.size(), chunk);
+  if (result != ChunkResult::kFound) return result;
+  const auto payload_size = static_cast<size_t>(chunk.payload_size);
+  chunk.payload = file.subspan(static_cast<size_t>(chunk.payload_offset), payload_size);
+  const uint32_t stored =
+      ByteReader(bytes.subspan(static_cast<size_t>(chunk.size) - kCrcBytes)).u32();
   chunk.crc_ok = crc32c(chunk.payload, crc32c(chunk.type)) == stored;
   return ChunkResult::kFound;
 }

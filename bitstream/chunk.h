@@ -37,15 +37,25 @@ struct Chunk {
   uint64_t offset = 0;  ///< of the type, in the file
   uint64_t size = 0;    ///< bytes of the whole chunk
   uint64_t payload_offset = 0;
+  uint64_t payload_size = 0;
   std::span<const uint8_t> payload;
   bool crc_ok = false;
 };
+
+/// Most bytes that type and length take.
+inline constexpr size_t kMaxFrontBytes = 4 + 10;
 
 enum class ChunkResult {
   kFound,    ///< framing read; look at `crc_ok`
   kCut,      ///< the file ends inside the chunk, as far as its length can be trusted
   kNoChunk,  ///< no chunk starts here
 };
+
+/// Reads type and length of the chunk that starts at `offset`, `available` bytes before the end;
+/// `front`: the first of those, kMaxFrontBytes or all there are. Payload and checksum are left
+/// alone.
+ChunkResult read_chunk_front(std::span<const uint8_t> front, uint64_t offset, uint64_t available,
+                             Chunk& chunk);
 
 /// Reads the chunk that starts at `offset` (<= file.size()) of the file.
 ChunkResult read_chunk(std::span<const uint8_t> file, uint64_t offset, Chunk& chunk);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bitstream/byte_source.h"
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
 #include "bitstream/limits.h"
@@ -65,13 +66,19 @@ struct GroupChunk : GroupSections {
   bool continues() const { return (header.flags & GroupHeader::kContinues) != 0; }
 };
 
+/// True where nothing is missing between the groups.
+inline bool follows(const GroupChunk& group, const GroupChunk& before) {
+  return group.header.shot == before.header.shot &&
+         group.header.first_frame == before.header.first_frame + before.header.frame_count;
+}
+
 /// A stretch of the file that holds no chunk with a right checksum.
 struct DamagedRange {
   std::string type;  ///< as read; empty where not even a type could be
   uint64_t offset = 0, size = 0;
 };
 
-/// Everything a file holds, found without decoding a mesh or a frame. Spans point into the file.
+/// Everything a file holds, found without decoding a mesh or a frame.
 struct ContainerReader {
   uint8_t format_version = 0;
   SequenceHeader header;
@@ -83,15 +90,24 @@ struct ContainerReader {
   /// Bytes of the file by section; the sum is the file's size.
   std::vector<std::pair<std::string, uint64_t>> sections;
 
-  /// Reads `file`, which must outlive this object. A wrong checksum or a cut is reported in
-  /// `damaged` and `truncated`; kCorrupt where bytes with a right checksum break the specification
-  /// or the sequence header is lost; kUnsupported for a newer version or an unknown critical chunk;
-  /// kLimitExceeded.
+  /// Reads `file`, which must outlive this object: spans point into it. A wrong checksum or a cut
+  /// is reported in `damaged` and `truncated`; kCorrupt where bytes with a right checksum break the
+  /// specification or the sequence header is lost; kUnsupported for a newer version or an unknown
+  /// critical chunk; kLimitExceeded.
   Status parse(std::span<const uint8_t> file, const Limits& limits);
+
+  /// The same through a source, without reading the payloads of meshes and groups that an
+  /// undamaged seek table leads to; `load_chunk` checks them. Spans stay empty.
+  Status open(ByteSource& source, const Limits& limits);
 
   /// Reference mesh of a shot, nullptr where it was damaged.
   const ReferenceChunk* reference(uint32_t shot) const;
 };
+
+/// Reads the chunk again, as a whole, and sets its spans, which point into `source` or `buffer`.
+/// kCorrupt where its checksum is wrong or it has changed.
+Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, ReferenceChunk& chunk);
+Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, GroupChunk& chunk);
 
 /// Text for people: every chunk and every header field as "offset name value", one a line, as far
 /// as the bytes make sense.

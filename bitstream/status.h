@@ -15,6 +15,8 @@ enum class StatusCode {
   kLimitExceeded,    ///< the stream asks for more than the caller's limits allow
   kIo,               ///< a file or callback failed
   kCancelled,        ///< stopped on request
+  kOutOfMemory,      ///< the system gave no memory
+  kNeedMoreData,     ///< the bytes pushed so far do not reach what was asked for
 };
 
 /// Returned by value, never thrown. `message` is empty when ok.
@@ -33,6 +35,9 @@ class [[nodiscard]] Status {
     return {StatusCode::kInvalidArgument, std::move(what)};
   }
   static Status limit(std::string what) { return {StatusCode::kLimitExceeded, std::move(what)}; }
+  static Status cancelled() { return {StatusCode::kCancelled, "cancelled"}; }
+  /// Short enough to need no memory itself.
+  static Status out_of_memory() { return {StatusCode::kOutOfMemory, "out of memory"}; }
   static Status io(std::string what) { return {StatusCode::kIo, std::move(what)}; }
 
  private:

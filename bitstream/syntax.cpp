@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "bitstream/utf8.h"
+
 namespace reeb {
 namespace {
 
@@ -77,6 +79,7 @@ void SyntaxReader::text_field(const char* name, std::string& value) {
   const auto text = in_.take(in_.varuint());
   check_bytes(name);
   value.assign(text.begin(), text.end());
+  if (!is_utf8(value)) fail(name, "is not UTF-8");
   trace_line(offset, name, quoted(value));
 }
 
@@ -113,7 +116,8 @@ void SyntaxWriter::real(const char* name, double& value, double lowest, double h
   }
 }
 
-void SyntaxWriter::text_field(const char*, std::string& value) {
+void SyntaxWriter::text_field(const char* name, std::string& value) {
+  if (!is_utf8(value)) fail(name, "is not UTF-8");
   append_varuint(out_, value.size());
   out_.insert(out_.end(), value.begin(), value.end());
 }

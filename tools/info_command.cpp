@@ -33,7 +33,9 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
             {"frames", info.frame_count},
             {"frame_rate", info.frame_rate},
             {"start_time", info.start_time},
+            {"total_frames", info.total_frames},
             {"truncated", info.truncated},
+            {"missing", Json::array()},
             {"shots", Json::array()},
             {"groups", Json::array()},
             {"sections", Json::object()},
@@ -55,6 +57,8 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
                               {"continues", g.continues},
                               {"lossless", g.lossless}});
   }
+  for (const auto& gap : info.missing)
+    json["missing"].push_back({{"first_frame", gap.first_frame + 1}, {"frames", gap.frame_count}});
   for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
   for (const auto& [key, value] : info.metadata) json["metadata"][key] = value;
   return json;
@@ -72,6 +76,10 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
     out << "from frame " << grouped(s.first_frame + 1) << ": " << counted(s.frame_count, "frame")
         << " of " << counted(s.vertex_count, "vertex") << ", " << counted(s.face_count, "face")
         << (s.order_kept ? "" : ", vertices reordered") << "\n";
+  }
+  for (const auto& gap : info.missing) {
+    out << "frames " << grouped(gap.first_frame + 1) << " to "
+        << grouped(gap.first_frame + gap.frame_count) << " are damaged or cut off\n";
   }
   out << counted(info.groups.size(), "group") << "\n";
   for (const auto& g : info.groups) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -14,6 +15,8 @@ inline unsigned resolve_threads(unsigned threads) {
 }
 
 /// Calls function(begin, end) on contiguous parts of [0, count), one part per thread, and waits.
+/// Where the system gives no more threads, this one does their parts. The first exception of any
+/// part is thrown on, after all have ended.
 template <class Function>
 void parallel_ranges(uint32_t count, unsigned threads, Function function) {
   const uint32_t parts = std::min(count, threads);
@@ -21,15 +24,30 @@ void parallel_ranges(uint32_t count, unsigned threads, Function function) {
     if (count > 0) function(0u, count);
     return;
   }
-  const auto bound = [&](uint32_t part) {
-    return static_cast<uint32_t>(uint64_t{count} * part / parts);
+  std::vector<std::exception_ptr> failures(parts);
+  const auto run = [&](uint32_t part) noexcept {
+    const auto bound = [&](uint32_t p) {
+      return static_cast<uint32_t>(uint64_t{count} * p / parts);
+    };
+    try {
+      function(bound(part), bound(part + 1));
+    } catch (...) {
+      failures[part] = std::current_exception();
+    }
   };
   std::vector<std::thread> workers;
-  for (uint32_t part = 1; part < parts; ++part) {
-    workers.emplace_back([&, part] { function(bound(part), bound(part + 1)); });
+  workers.reserve(parts);
+  uint32_t started = 1;
+  try {
+    for (; started < parts; ++started) workers.emplace_back(run, started);
+  } catch (const std::exception&) {  // no thread, or no memory for one
+    for (uint32_t part = started; part < parts; ++part) run(part);
   }
-  function(0u, bound(1));
+  run(0);
   for (std::thread& worker : workers) worker.join();
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
 }
 
 }  // namespace reeb

@@ -1,191 +1,253 @@
 #include "codec/dec/decoder.h"
 
 #include <algorithm>
-#include <map>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
 #include <utility>
 
-#include "bitstream/container.h"
-#include "codec/common/correction_field.h"
-#include "codec/common/motion_model.h"
-#include "codec/common/parallel.h"
-#include "codec/dec/group_decoder.h"
-#include "codec/dec/reference_decoder.h"
+#include "bitstream/container_parser.h"
+#include "codec/dec/group_store.h"
+#include "codec/dec/guard.h"
+#include "codec/dec/normals.h"
+#include "codec/dec/pushed_source.h"
 
 namespace reeb {
 
 namespace {
 
-constexpr uint64_t kBytesPerRow =
-    2600;  ///< of weights, graph and contexts of a field while it is decoded
+/// Frames that playing may skip from one call to the next.
+constexpr int64_t kLeap = 8;
 
-/// Bytes that decoding a group takes at most.
-uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
-  if (h.profile == Profile::kLossless) {
-    return vertices * (kBytesPerRow + 12 * uint64_t{h.component_count}) +
-           uint64_t{h.frame_count} * sizeof(uint32_t);
-  }
-  const uint64_t components = h.component_count;
-  const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
-  // The basis is there as it was decoded, by component and by frame.
-  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 12 * (components + 1));
-  const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
-                                        uint64_t{h.region_count} * sizeof(MotionModel::Transform));
-  const bool corrected = h.correction_count > 0;
-  const uint64_t corrections = corrected ? CorrectionField::memory(vertices, h.frame_count) +
-                                               2 * Corrections::kEntryBytes * h.correction_count
-                                         : 0;
-  return surface + basis + motion + corrections;
-}
-
-/// A group that continues one that is damaged, cut off or of another shot is lost with it.
-void drop_broken_runs(std::vector<GroupChunk>& groups) {
-  std::vector<GroupChunk> whole;
-  for (const GroupChunk& g : groups) {
-    if (g.continues()) {
-      if (whole.empty() || whole.back().header.shot != g.header.shot) continue;
-      const GroupHeader& before = whole.back().header;
-      if (before.first_frame + before.frame_count != g.header.first_frame) continue;
-    }
-    whole.push_back(g);
-  }
-  groups = std::move(whole);
-}
-
-uint64_t connectivity_memory(const Connectivity& c) {
-  return sizeof(uint32_t) * (c.face_sizes.size() + c.corners.size());
-}
-
-StreamInfo make_info(const ContainerReader& container, uint64_t file_bytes) {
-  StreamInfo info;
-  info.format_version = container.format_version;
-  info.frame_rate = container.header.frame_rate;
-  info.start_time = container.header.start_time;
-  info.total_frames = container.header.total_frames;
-  info.truncated = container.truncated;
-  info.file_bytes = file_bytes;
-  for (const ReferenceChunk& r : container.references) {
-    const bool kept = (r.mesh_header.flags & MeshHeader::kOrderKept) != 0;
-    info.shots.push_back(
-        {r.header.first_frame, 0, r.mesh_header.vertex_count, r.mesh_header.face_count, kept});
-  }
-  for (const GroupChunk& g : container.groups) {
-    const GroupHeader& h = g.header;
-    info.groups.push_back({h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count,
-                           g.size, g.continues(), h.profile == Profile::kLossless});
-    if (const ReferenceChunk* r = container.reference(h.shot)) {
-      info.shots[static_cast<size_t>(r - container.references.data())].frame_count += h.frame_count;
-    }
-    info.frame_count = std::max(info.frame_count, h.first_frame + h.frame_count);
-  }
-  for (const auto& [name, bytes] : container.sections) info.sections.push_back({name, bytes});
-  for (const MetadataEntry& m : container.metadata) info.metadata.emplace_back(m.key, m.value);
-  return info;
-}
+std::string frame_name(uint32_t frame) { return "frame " + std::to_string(uint64_t{frame} + 1); }
 
 }  // namespace
 
 struct Decoder::Impl {
-  ContainerReader container;
-  DecodeOptions options;
-  StreamInfo info;
-  std::map<uint32_t, Connectivity> connectivities;  ///< of the shots met so far, for good
-  uint64_t held = 0;                                ///< bytes of them
-  uint32_t surface_shot = UINT32_MAX;               ///< shot of `surface`
-  DecodedSurface surface;
-  size_t open_group = SIZE_MAX;  ///< group of `synthesis`, always of `surface_shot`
-  GroupSynthesis synthesis;
-  GroupState state;  ///< what `state_group` left
-  size_t state_group = SIZE_MAX;
+  Impl(std::unique_ptr<ByteSource> bytes, const DecodeOptions& o)
+      : options(o),
+        memory(o.resource()),
+        source(std::move(bytes)),
+        account(o.limits.max_memory),
+        store(*source, options, account) {}
 
-  bool continued(size_t group) const;
-  Status find_start(size_t group, size_t& first) const;
+  const DecodeOptions options;
+  std::pmr::memory_resource* const memory;
+  std::unique_ptr<ByteSource> source;
+  PushedSource* pushed = nullptr;  ///< the source, where bytes are pushed
+  MemoryAccount account;
+  Lease pushed_lease;
+  ContainerReader container;
+  std::unique_ptr<ContainerParser> parser;  ///< of pushed bytes
+  bool complete = true;                     ///< no bytes will come
+  StreamInfo info;
+  GroupStore store;
+
+  std::mutex turn;  ///< held by each call
+  std::atomic<uint32_t> cancels{0};
+  std::atomic<bool> loop{false};
+  int64_t last_frame = -1;
+  DecodeStats stats;
+  uint64_t decoded_before = 0, ahead_before = 0;  ///< groups, at the last reset
+
   Status find_group(uint32_t frame, size_t& index) const;
-  Status open_shot(uint32_t shot);
-  Status open(size_t group);
-  Status check_memory(uint64_t bytes) const;
+  Status make_request(size_t group, GroupRequest& request) const;
+  Status find_reference(size_t group, const ReferenceChunk*& reference) const;
+  Status faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces);
+  Status triangles_of(ShotFaces& faces);
+  Status positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
+                   std::shared_ptr<ShotFaces>& faces);
+  Status normals(ShotFaces& faces, const FrameTarget& target);
+  Status between(uint32_t frame, double share, const StopToken& stop, const FrameTarget& target);
+  Status blend(uint32_t frame, double share, const StopToken& stop, const FrameTarget& target,
+               uint32_t vertices);
+  void look_ahead(uint32_t frame);
+  Status parse_pushed(bool last);
+
+  /// Runs a call: one at a time, without exceptions.
+  template <class Call>
+  Status run(Call&& call) {
+    const StopToken stop(cancels);
+    return guarded([&] {
+      const std::lock_guard lock(turn);
+      return call(stop);
+    });
+  }
 };
 
 Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
-  const std::string name = "frame " + std::to_string(frame + 1);
-  if (frame >= container.header.total_frames) return Status::invalid(name + " is past the end");
   const auto& groups = container.groups;
   const auto after =
       std::upper_bound(groups.begin(), groups.end(), frame,
                        [](uint32_t f, const GroupChunk& g) { return f < g.header.first_frame; });
-  if (after == groups.begin() ||
-      frame - std::prev(after)->header.first_frame >= std::prev(after)->header.frame_count) {
-    return Status::corrupt(name + " is missing: its group is damaged or cut off");
+  if (after != groups.begin()) {
+    const GroupHeader& h = std::prev(after)->header;
+    index = static_cast<size_t>(std::prev(after) - groups.begin());
+    if (frame - h.first_frame < h.frame_count) return {};
   }
-  index = static_cast<size_t>(std::prev(after) - groups.begin());
-  return {};
+  const bool has_header = info.format_version != 0;
+  if (has_header && frame >= container.header.total_frames)
+    return Status::invalid(frame_name(frame) + " is past the end");
+  if (!complete && after == groups.end())
+    return {StatusCode::kNeedMoreData, frame_name(frame) + " is still to come"};
+  return Status::corrupt(frame_name(frame) + " is missing: its group is damaged or cut off");
 }
 
-Status Decoder::Impl::check_memory(uint64_t bytes) const {
-  if (held + bytes <= options.limits.max_memory) return {};
-  return Status::limit("the stream needs more memory than the limit allows");
-}
-
-Status Decoder::Impl::open_shot(uint32_t shot) {
-  if (shot == surface_shot) return {};
-  const ReferenceChunk* chunk = container.reference(shot);
-  if (chunk == nullptr)
-    return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
-  if (Status s = check_memory(chunk->mesh_header.vertex_count * kBytesPerRow); !s.ok()) return s;
-  surface_shot = UINT32_MAX;
-  open_group = state_group = SIZE_MAX;
-  state = {};
-  ReferenceMesh mesh;
-  if (Status s = decode_reference(chunk->mesh, options.limits, mesh); !s.ok()) return s;
-  surface.grid = std::move(mesh.grid);
-  surface.surface = build_surface_graph(GridPoints(surface.grid), mesh.triangles);
-  surface.output.clear();
-  for (const uint32_t v : surface.surface.order) surface.output.push_back(mesh.output_index[v]);
-  std::copy(std::begin(chunk->header.origin), std::end(chunk->header.origin), surface.origin);
-  surface.grid_step = chunk->header.grid_step;
-  surface_shot = shot;
-  const auto [at, added] = connectivities.try_emplace(shot, std::move(mesh.connectivity));
-  if (added) held += connectivity_memory(at->second);
-  return {};
-}
-
-/// True where the next group continues this one.
-bool Decoder::Impl::continued(size_t group) const {
-  return group + 1 < container.groups.size() && container.groups[group + 1].continues();
-}
-
-/// The group that decoding has to start with to have `group`.
-Status Decoder::Impl::find_start(size_t group, size_t& first) const {
-  for (first = group; container.groups[first].continues(); --first) {
-    if (group - first == kMostOpenGroups) {
-      return Status::corrupt("too many groups in a row continue each other");
-    }
-  }
-  if (first <= state_group && state_group < group) first = state_group + 1;
-  return {};
-}
-
-Status Decoder::Impl::open(size_t group) {
-  if (group == open_group) return {};
-  if (Status s = open_shot(container.groups[group].header.shot); !s.ok()) return s;
+// The group and those before it that it continues.
+Status Decoder::Impl::make_request(size_t group, GroupRequest& request) const {
+  const auto& groups = container.groups;
   size_t first = group;
-  if (Status s = find_start(group, first); !s.ok()) return s;
-  open_group = SIZE_MAX;
-  for (size_t i = first; i <= group; ++i) {
-    const GroupChunk& chunk = container.groups[i];
-    if (Status s = check_memory(group_memory(surface.output.size(), chunk.header)); !s.ok())
-      return s;
-    const bool keep = continued(i);
-    state_group = SIZE_MAX;
-    if (Status s =
-            decode_group(chunk, surface, resolve_threads(options.threads), keep, state, synthesis);
-        !s.ok()) {
-      state = {};
-      return s;
+  for (; groups[first].continues(); --first) {
+    if (group - first == kMostOpenGroups)
+      return Status::corrupt("too many groups in a row continue each other");
+    if (first == 0 || !follows(groups[first], groups[first - 1])) {
+      return Status::corrupt(frame_name(groups[group].header.first_frame) +
+                             " is missing: a group that its own continues is damaged or cut off");
     }
-    if (keep) state_group = i;
   }
-  open_group = group;
+  request.run.assign(groups.begin() + static_cast<ptrdiff_t>(first),
+                     groups.begin() + static_cast<ptrdiff_t>(group) + 1);
+  request.continued = group + 1 < groups.size() && groups[group + 1].continues();
+  const ReferenceChunk* reference = nullptr;
+  if (Status s = find_reference(group, reference); !s.ok()) return s;
+  request.reference = *reference;
   return {};
+}
+
+Status Decoder::Impl::find_reference(size_t group, const ReferenceChunk*& reference) const {
+  const uint32_t shot = container.groups[group].header.shot;
+  reference = container.reference(shot);
+  if (reference != nullptr) return {};
+  return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
+}
+
+Status Decoder::Impl::faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces) {
+  size_t group = 0;
+  if (Status s = find_group(frame, group); !s.ok()) return s;
+  const ReferenceChunk* reference = nullptr;
+  if (Status s = find_reference(group, reference); !s.ok()) return s;
+  return store.get_faces(*reference, faces);
+}
+
+Status Decoder::Impl::triangles_of(ShotFaces& faces) {
+  if (!faces.triangles.empty()) return {};
+  const Connectivity& c = faces.connectivity;
+  const size_t count = fan_triangles(c.face_sizes, c.corners, nullptr);
+  if (!faces.lease.grow(account, count * sizeof(uint32_t)))
+    return Status::limit("the triangles need more memory than the limit allows");
+  std::pmr::vector<uint32_t> triangles(count, memory);
+  fan_triangles(c.face_sizes, c.corners, triangles.data());
+  faces.triangles = std::move(triangles);
+  return {};
+}
+
+Status Decoder::Impl::positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
+                                std::shared_ptr<ShotFaces>& faces) {
+  size_t index = 0;
+  if (Status s = find_group(frame, index); !s.ok()) return s;
+  GroupRequest request;
+  if (Status s = make_request(index, request); !s.ok()) return s;
+  if (request.reference.mesh_header.vertex_count > target.vertex_capacity)
+    return Status::invalid(frame_name(frame) + " has more vertices than there is room for");
+  std::shared_ptr<const OpenGroup> group;
+  if (Status s = store.get(request, stop, group); !s.ok()) return s;
+  group->synthesis.frame(frame - group->header.first_frame, group->shot->surface.output,
+                         target.positions, target.stride);
+  faces = group->shot->faces;
+  return {};
+}
+
+Status Decoder::Impl::normals(ShotFaces& faces, const FrameTarget& target) {
+  if (target.normals == nullptr) return {};
+  if (Status s = triangles_of(faces); !s.ok()) return s;
+  Lease lease;
+  const size_t values = size_t{faces.connectivity.vertex_count} * 3;
+  if (!lease.grow(account, values * sizeof(double)))
+    return Status::limit("the normals need more memory than the limit allows");
+  std::pmr::vector<double> sums(values, memory);
+  vertex_normals(faces.triangles, target.positions, target.stride, sums, target.normals,
+                 target.normal_stride);
+  return {};
+}
+
+// Moves the frame in `target` towards the one after it.
+Status Decoder::Impl::blend(uint32_t frame, double share, const StopToken& stop,
+                            const FrameTarget& target, uint32_t vertices) {
+  Lease lease;
+  if (!lease.grow(account, uint64_t{vertices} * 3 * sizeof(float)))
+    return Status::limit("the frame needs more memory than the limit allows");
+  std::pmr::vector<float> next(size_t{vertices} * 3, memory);
+  std::shared_ptr<ShotFaces> faces;
+  if (Status s = positions(frame + 1, stop, {.positions = next.data()}, faces); !s.ok()) return s;
+  for (size_t v = 0; v < vertices; ++v) {
+    for (size_t a = 0; a < 3; ++a) {
+      float& x = target.positions[v * target.stride + a];
+      x = static_cast<float>((1 - share) * double{x} + share * double{next[v * 3 + a]});
+    }
+  }
+  return {};
+}
+
+Status Decoder::Impl::between(uint32_t frame, double share, const StopToken& stop,
+                              const FrameTarget& target) {
+  const bool wrong = target.positions == nullptr || target.stride < 3 ||
+                     (target.normals != nullptr && target.normal_stride < 3);
+  if (wrong) return Status::invalid("the target has no positions, or a stride below 3");
+  const auto start = std::chrono::steady_clock::now();
+  std::shared_ptr<ShotFaces> faces;
+  if (Status s = positions(frame, stop, target, faces); !s.ok()) return s;
+  if (share > 0) {
+    size_t here = 0, next = 0;
+    const bool found = find_group(frame, here).ok() && find_group(frame + 1, next).ok();
+    if (found && container.groups[here].header.shot == container.groups[next].header.shot) {
+      const uint32_t vertices = faces->connectivity.vertex_count;
+      if (Status s = blend(frame, share, stop, target, vertices); !s.ok()) return s;
+    }
+  }
+  if (Status s = normals(*faces, target); !s.ok()) return s;
+  look_ahead(frame);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  ++stats.frames;
+  if (took.count() > stats.longest_stall) {
+    stats.longest_stall = took.count();
+    stats.longest_stall_frame = frame;
+  }
+  return {};
+}
+
+// Starts on the group that playing will meet next, if frames are asked for one after another.
+void Decoder::Impl::look_ahead(uint32_t frame) {
+  const int64_t last = std::exchange(last_frame, int64_t{frame});
+  if (!options.prefetch || last < 0) return;
+  const bool looping = loop;
+  int64_t way = int64_t{frame} - last;
+  const int64_t around = info.frame_count;
+  if (looping && way < kLeap - around) way += around;
+  if (looping && way > around - kLeap) way -= around;
+  if (way == 0 || way > kLeap || way < -kLeap) return;
+  size_t index = 0;
+  if (!find_group(frame, index).ok()) return;
+  const size_t count = container.groups.size();
+  if (!looping && (way > 0 ? index + 1 == count : index == 0)) return;
+  GroupRequest request;
+  if (!make_request((way > 0 ? index + 1 : index + count - 1) % count, request).ok()) return;
+  // Without memory for it the next group is decoded when its turn comes.
+  (void)guarded([&] {
+    store.prefetch(request);
+    return Status();
+  });
+}
+
+Status Decoder::Impl::parse_pushed(bool last) {
+  const auto lock = store.lock_source();
+  const size_t groups = last ? 0 : container.groups.size();
+  const Status status = parser->advance(last);
+  // A damaged file has been read once more, which may have found more of it.
+  if (last) info = {};
+  if (parser->has_header()) update_info(container, source->size(), last, groups, info);
+  complete = last;
+  return status;
 }
 
 Decoder::Decoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -193,88 +255,119 @@ Decoder::~Decoder() = default;
 
 Status Decoder::open(std::span<const uint8_t> bytes, const DecodeOptions& options,
                      std::unique_ptr<Decoder>& decoder) {
-  auto impl = std::make_unique<Impl>();
-  impl->options = options;
-  if (Status s = impl->container.parse(bytes, options.limits); !s.ok()) return s;
-  drop_broken_runs(impl->container.groups);
-  impl->info = make_info(impl->container, bytes.size());
-  decoder.reset(new Decoder(std::move(impl)));
-  return {};
+  return guarded([&]() -> Status {
+    auto impl = std::make_unique<Impl>(std::make_unique<MemorySource>(bytes), options);
+    if (Status s = impl->container.parse(bytes, options.limits); !s.ok()) return s;
+    update_info(impl->container, bytes.size(), true, 0, impl->info);
+    decoder.reset(new Decoder(std::move(impl)));
+    return {};
+  });
+}
+
+Status Decoder::open(std::unique_ptr<ByteSource> source, const DecodeOptions& options,
+                     std::unique_ptr<Decoder>& decoder) {
+  return guarded([&]() -> Status {
+    auto impl = std::make_unique<Impl>(std::move(source), options);
+    if (Status s = impl->container.open(*impl->source, options.limits); !s.ok()) return s;
+    update_info(impl->container, impl->source->size(), true, 0, impl->info);
+    decoder.reset(new Decoder(std::move(impl)));
+    return {};
+  });
+}
+
+Status Decoder::open_pushed(const DecodeOptions& options, std::unique_ptr<Decoder>& decoder) {
+  return guarded([&]() -> Status {
+    auto source = std::make_unique<PushedSource>(options.resource());
+    PushedSource* pushed = source.get();
+    auto impl = std::make_unique<Impl>(std::move(source), options);
+    impl->pushed = pushed;
+    impl->complete = false;
+    impl->parser = std::make_unique<ContainerParser>(*pushed, impl->options.limits, Checksums::kNow,
+                                                     impl->container);
+    decoder.reset(new Decoder(std::move(impl)));
+    return {};
+  });
+}
+
+Status Decoder::push(std::span<const uint8_t> bytes) {
+  return impl_->run([&](const StopToken&) -> Status {
+    Impl& d = *impl_;
+    if (d.pushed == nullptr || d.complete)
+      return Status::invalid("the stream takes no bytes, or no more of them");
+    if (!d.pushed_lease.grow(d.account, d.pushed->memory_for(bytes.size())))
+      return Status::limit("the file is larger than the memory limit");
+    {
+      const auto lock = d.store.lock_source();
+      d.pushed->append(bytes);
+    }
+    return d.parse_pushed(false);
+  });
+}
+
+Status Decoder::finish() {
+  return impl_->run([&](const StopToken&) -> Status {
+    if (impl_->pushed == nullptr || impl_->complete)
+      return Status::invalid("the stream takes no bytes, or no more of them");
+    return impl_->parse_pushed(true);
+  });
 }
 
 const StreamInfo& Decoder::info() const { return impl_->info; }
 
 Status Decoder::connectivity(uint32_t frame, const Connectivity*& out) {
-  size_t group = 0;
-  if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
-  const uint32_t shot = impl_->container.groups[group].header.shot;
-  if (!impl_->connectivities.contains(shot)) {
-    if (Status s = impl_->open_shot(shot); !s.ok()) return s;
-  }
-  out = &impl_->connectivities.at(shot);
-  return {};
+  return impl_->run([&](const StopToken&) -> Status {
+    std::shared_ptr<ShotFaces> faces;
+    if (Status s = impl_->faces_of(frame, faces); !s.ok()) return s;
+    out = &faces->connectivity;
+    return {};
+  });
 }
 
-Status Decoder::decode_frame(uint32_t frame, float* xyz, size_t stride) {
-  size_t group = 0;
-  if (Status s = impl_->find_group(frame, group); !s.ok()) return s;
-  if (Status s = impl_->open(group); !s.ok()) return s;
-  const GroupHeader& header = impl_->container.groups[group].header;
-  impl_->synthesis.frame(frame - header.first_frame, impl_->surface.output, xyz, stride);
-  return {};
+Status Decoder::triangles(uint32_t frame, std::span<const uint32_t>& out) {
+  return impl_->run([&](const StopToken&) -> Status {
+    std::shared_ptr<ShotFaces> faces;
+    if (Status s = impl_->faces_of(frame, faces); !s.ok()) return s;
+    if (Status s = impl_->triangles_of(*faces); !s.ok()) return s;
+    out = faces->triangles;
+    return {};
+  });
 }
 
-namespace {
-
-/// Appends the group's frames to `shot`, which has all earlier ones.
-Status append_group(Decoder& decoder, const StreamInfo::Group& group, Shot& shot) {
-  const size_t frame_size = size_t{shot.connectivity.vertex_count} * 3;
-  for (uint32_t t = 0; t < group.frame_count; ++t) {
-    // Frame by frame, so that what is zeroed is still in the cache when it is written.
-    shot.positions.resize(frame_size * (shot.frame_count + 1));
-    float* xyz = shot.positions.data() + frame_size * shot.frame_count++;
-    if (Status s = decoder.decode_frame(group.first_frame + t, xyz, 3); !s.ok()) return s;
-  }
-  return {};
+Status Decoder::decode_frame(uint32_t frame, const FrameTarget& target) {
+  return impl_->run([&](const StopToken& stop) { return impl_->between(frame, 0, stop, target); });
 }
 
-/// Frames of each shot.
-std::map<uint32_t, uint64_t> count_frames(const StreamInfo& info) {
-  std::map<uint32_t, uint64_t> out;
-  for (const StreamInfo::Group& group : info.groups) out[group.shot] += group.frame_count;
+Status Decoder::decode_at(double time, const FrameTarget& target) {
+  return impl_->run([&](const StopToken& stop) -> Status {
+    const double last = static_cast<double>(impl_->info.frame_count) - 1;
+    if (!(time >= 0 && time <= last)) return Status::invalid("the time is outside the sequence");
+    const double whole = std::floor(time);
+    return impl_->between(static_cast<uint32_t>(whole), time - whole, stop, target);
+  });
+}
+
+void Decoder::set_loop(bool loop) { impl_->loop = loop; }
+
+void Decoder::cancel() {
+  ++impl_->cancels;
+  impl_->store.interrupt();
+}
+
+DecodeStats Decoder::stats() const {
+  const std::lock_guard lock(impl_->turn);
+  DecodeStats out = impl_->stats;
+  out.groups_decoded = impl_->store.decoded_count() - impl_->decoded_before;
+  out.groups_ahead = impl_->store.ahead_count() - impl_->ahead_before;
+  out.memory = impl_->account.used();
+  out.peak_memory = impl_->account.peak();
   return out;
 }
 
-}  // namespace
-
-Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
-                       Sequence& out) {
-  std::unique_ptr<Decoder> decoder;
-  if (Status s = Decoder::open(bytes, options, decoder); !s.ok()) return s;
-  const StreamInfo& info = decoder->info();
-  const std::map<uint32_t, uint64_t> frames = count_frames(info);
-  uint64_t floats = 0;
-  uint32_t newest = UINT32_MAX;
-  Sequence sequence;
-  sequence.frame_rate = info.frame_rate;
-  sequence.start_time = info.start_time;
-  for (const auto& [key, value] : info.metadata) sequence.metadata[key] = value;
-  for (const StreamInfo::Group& group : info.groups) {
-    if (group.shot != newest) {
-      const Connectivity* connectivity = nullptr;
-      if (Status s = decoder->connectivity(group.first_frame, connectivity); !s.ok()) return s;
-      floats += 3 * connectivity->vertex_count * frames.at(group.shot);
-      if (floats > options.limits.max_memory / sizeof(float))
-        return Status::limit("the sequence needs more memory than the limit allows");
-      sequence.shots.emplace_back().connectivity = *connectivity;
-      sequence.shots.back().positions.reserve(3 * connectivity->vertex_count *
-                                              frames.at(group.shot));
-      newest = group.shot;
-    }
-    if (Status s = append_group(*decoder, group, sequence.shots.back()); !s.ok()) return s;
-  }
-  out = std::move(sequence);
-  return {};
+void Decoder::reset_stats() {
+  const std::lock_guard lock(impl_->turn);
+  impl_->stats = {};
+  impl_->decoded_before = impl_->store.decoded_count();
+  impl_->ahead_before = impl_->store.ahead_count();
 }
 
 }  // namespace reeb

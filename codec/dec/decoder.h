@@ -5,77 +5,92 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "bitstream/limits.h"
+#include "bitstream/byte_source.h"
 #include "bitstream/status.h"
 #include "codec/common/sequence.h"
+#include "codec/dec/decode_options.h"
+#include "codec/dec/stream_info.h"
 
 namespace reeb {
 
-struct DecodeOptions {
-  Limits limits;         ///< refused beyond these, before anything is allocated
-  unsigned threads = 1;  ///< 0 = all cores; results do not depend on it
+/// Where a frame goes. Vertex v's xyz is written to `positions + v * stride`, strides in floats
+/// (>= 3).
+struct FrameTarget {
+  float* positions = nullptr;
+  size_t stride = 3;
+  /// Unit vertex normals, area-weighted from the frame's triangles, (0, 0, 0) at a vertex without
+  /// one; nullptr = not wanted.
+  float* normals = nullptr;
+  size_t normal_stride = 3;
+  /// Vertices that there is room for; a frame with more is refused.
+  size_t vertex_capacity = SIZE_MAX;
 };
 
-/// What a stream holds, known after `open`.
-struct StreamInfo {
-  struct Section {
-    std::string name;  ///< e.g. "reference mesh", "groups"
-    uint64_t bytes = 0;
-  };
-  struct Group {
-    uint32_t first_frame = 0;  ///< in the sequence
-    uint32_t frame_count = 0;
-    uint32_t shot = 0;
-    uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
-    uint32_t component_count = 0;  ///< temporal components; lossless: frames that are not copies
-    uint64_t bytes = 0;
-    bool continues = false;  ///< decodes only after the group before
-    bool lossless = false;
-  };
-  struct ShotInfo {
-    uint32_t first_frame = 0;
-    uint32_t frame_count = 0;
-    uint32_t vertex_count = 0;
-    uint32_t face_count = 0;
-    bool order_kept = true;  ///< vertices come back in the order of the input
-  };
-  uint32_t format_version = 0;
-  double frame_rate = 0;
-  double start_time = 0;
-  uint32_t frame_count = 0;   ///< frames that can be decoded (fewer than coded when truncated)
-  uint32_t total_frames = 0;  ///< frames that were coded, lost ones included
-  bool truncated = false;     ///< the stream ends early; whole groups before the cut are here
-  std::vector<ShotInfo> shots;
-  std::vector<Group> groups;
-  std::vector<Section> sections;
-  std::vector<std::pair<std::string, std::string>> metadata;
-  uint64_t file_bytes = 0;
+/// How playing went, since opening or `reset_stats`.
+struct DecodeStats {
+  uint64_t frames = 0;          ///< given
+  uint64_t groups_decoded = 0;  ///< in all, by now
+  uint64_t groups_ahead = 0;    ///< of these, by the thread that decodes ahead
+  double longest_stall = 0;     ///< seconds that the slowest frame took
+  uint32_t longest_stall_frame = 0;
+  uint64_t memory = 0, peak_memory = 0;  ///< bytes accounted for now, and at most
 };
 
-/// One open stream. Not copyable; one thread at a time per object, several objects at once are
-/// fine.
+/// One open stream. Calls on one object may come from any thread; they take turns, except for
+/// `cancel`. Objects know nothing of each other. Every Status may be kOutOfMemory; the object stays
+/// usable after any error.
 class Decoder {
  public:
-  /// Reads headers, not frames. The bytes must outlive the decoder.
+  /// Reads and checks all chunks, decodes nothing. The bytes must outlive the decoder.
   static Status open(std::span<const uint8_t> bytes, const DecodeOptions& options,
                      std::unique_ptr<Decoder>& decoder);
+
+  /// Reads headers through `source`; payloads only when they are needed, and by the seek table, if
+  /// it is sound. Damage in them is found then.
+  static Status open(std::unique_ptr<ByteSource> source, const DecodeOptions& options,
+                     std::unique_ptr<Decoder>& decoder);
+
+  /// Bytes come by `push`, which keeps them; frames can be had as soon as their group is there.
+  static Status open_pushed(const DecodeOptions& options, std::unique_ptr<Decoder>& decoder);
+
   ~Decoder();
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
+  /// Adds bytes at the end of the file. After an error the stream stays as far as it was.
+  Status push(std::span<const uint8_t> bytes);
+  /// There are no more. What is missing is now truncated, no longer waited for.
+  Status finish();
+
+  /// Not to be read while another thread pushes. Empty until the sequence header is there.
   const StreamInfo& info() const;
 
   /// Faces of the shot that holds `frame`. The pointer lives as long as the decoder.
   Status connectivity(uint32_t frame, const Connectivity*& out);
+  /// The same as triangles, three vertices each: every face as a fan around its first corner, faces
+  /// of fewer than three left out.
+  Status triangles(uint32_t frame, std::span<const uint32_t>& out);
 
-  /// Writes vertex v's xyz to `xyz + v * stride`, `stride` in floats (>= 3). Any order of frames;
-  /// costs at most one group and those that it continues, nothing but a small product when the
-  /// group is the one decoded last.
-  Status decode_frame(uint32_t frame, float* xyz, size_t stride = 3);
+  /// Any order of frames; costs at most one group and those that it continues, nothing but a small
+  /// product when the group is kept.
+  Status decode_frame(uint32_t frame, float* xyz, size_t stride = 3) {
+    return decode_frame(frame, FrameTarget{.positions = xyz, .stride = stride});
+  }
+  Status decode_frame(uint32_t frame, const FrameTarget& target);
+
+  /// The pose at a time in frames, 0 .. frame_count - 1: linear between the two frames around it,
+  /// the earlier one where the connectivity changes between them.
+  Status decode_at(double time, const FrameTarget& target);
+
+  /// With prefetch: the frame after the last is the first one, and the other way round.
+  void set_loop(bool loop);
+
+  /// Ends calls that are running now with kCancelled, soon. Any thread, at any time.
+  void cancel();
+
+  DecodeStats stats() const;
+  void reset_stats();
 
  private:
   struct Impl;
@@ -83,7 +98,9 @@ class Decoder {
   std::unique_ptr<Impl> impl_;
 };
 
-/// All frames at once.
+/// All frames at once, groups in parallel on `options.threads`, output included in
+/// `options.limits.max_memory`. kTruncated where the stream ends early and kCorrupt where groups
+/// are damaged; `out` has then all frames that could be decoded, one after another.
 Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options, Sequence& out);
 
 }  // namespace reeb

@@ -8,8 +8,6 @@
 namespace reeb {
 namespace {
 
-constexpr uint64_t kDracoMemoryPerTriangle = 128;  // bytes, measured with room to spare
-
 // What Draco reads first. It trusts the counts for its allocations.
 Status check_counts(std::span<const uint8_t> middle, const Limits& limits, uint64_t max_triangles) {
   ByteReader in(middle);
@@ -22,7 +20,7 @@ Status check_counts(std::span<const uint8_t> middle, const Limits& limits, uint6
   if (!in.ok()) return Status::corrupt("connectivity: its header is malformed");
   if (traversal != 0 && traversal != 2) return Status::corrupt("connectivity: unknown traversal");
   if (triangles > 4 * uint64_t{limits.max_faces} || vertices > 4 * uint64_t{limits.max_vertices} ||
-      triangles * kDracoMemoryPerTriangle > limits.max_memory) {
+      triangles > limits.max_memory / kDracoMemoryPerTriangle) {
     return Status::limit("connectivity: more triangles or vertices than allowed");
   }
   if (attribute_tables != 0 || triangles == 0 || vertices == 0 || vertices > 3 * triangles ||
@@ -46,6 +44,13 @@ bool read_triangles(const draco::Mesh& mesh, DracoMesh& out) {
 }
 
 }  // namespace
+
+uint64_t draco_triangle_count(std::span<const uint8_t> middle) {
+  ByteReader in(middle);
+  in.u8();
+  in.varuint();
+  return in.varuint();
+}
 
 Status decode_draco_connectivity(std::span<const uint8_t> middle, const Limits& limits,
                                  uint64_t max_triangles, DracoMesh& out) {

@@ -18,10 +18,16 @@ inline constexpr std::array<uint8_t, 11> kDracoFront = {'D', 'R', 'A', 'C', 'O',
 inline constexpr std::array<uint8_t, 20> kDracoBack = {1, 0xFF, 0, 1, 1, 0, 5, 3,    0, 0,
                                                        1, 0xFE, 1, 1, 3, 1, 1, 0x40, 1, 0};
 
+/// Bytes that Draco takes while it decodes, per triangle; measured, with room to spare.
+inline constexpr uint64_t kDracoMemoryPerTriangle = 128;
+
 struct DracoMesh {
   uint32_t point_count = 0;
   std::vector<uint32_t> triangles;  ///< three points each
 };
+
+/// The number of triangles that `middle` announces, 0 where it is malformed.
+uint64_t draco_triangle_count(std::span<const uint8_t> middle);
 
 /// Decodes `middle`, a Draco file without its front and back. Its counts are checked against
 /// `limits` before Draco sees it; more than `max_triangles` are corrupt.

@@ -67,13 +67,14 @@ Status start_group(const GroupChunk& chunk, const DecodedSurface& surface, unsig
 }
 
 Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
-                    std::vector<std::vector<float>> planes, GroupState& state,
-                    GroupSynthesis& out) {
+                    std::vector<std::vector<float>> planes, const StopToken& stop,
+                    GroupState& state, GroupSynthesis& out) {
   const TemporalGraph temporal = build_temporal_graph(chunk.header.frame_count);
   Field basis(temporal.graph, basis_field_options(), 1);
   std::swap(basis.model(), state.basis_contexts);
   BinaryDecoder decoder(chunk.basis);
   for (uint32_t k = 0; k <= chunk.header.component_count; ++k) {
+    if (stop.requested()) return Status::cancelled();
     if (!decode_component(basis, decoder)) return Status::corrupt("the basis section is damaged");
   }
   std::swap(basis.model(), state.basis_contexts);
@@ -105,21 +106,22 @@ Status decode_corrections(const GroupChunk& chunk, const DecodedSurface& surface
 
 }  // namespace
 
-bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field) {
+bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field,
+                         const StopToken& stop) {
   BinaryDecoder decoder(bytes);
   for (uint32_t k = 0; k < count; ++k) {
-    if (!decode_component(field, decoder)) return false;
+    if (stop.requested() || !decode_component(field, decoder)) return false;
   }
   return true;
 }
 
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
-                    bool keep, GroupState& state, GroupSynthesis& out) {
+                    bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop) {
   const GroupHeader& header = chunk.header;
   if (header.profile == Profile::kLossless) {
     state = {};
     ExactFrames frames;
-    if (Status s = decode_lossless_group(chunk, surface, threads, frames); !s.ok()) return s;
+    if (Status s = decode_lossless_group(chunk, surface, threads, stop, frames); !s.ok()) return s;
     out = GroupSynthesis(std::move(frames));
     return {};
   }
@@ -127,7 +129,8 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
   MotionModel motion;
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
-  if (!decode_coefficients(chunk.coefficients, header.component_count, *state.coefficients)) {
+  if (!decode_coefficients(chunk.coefficients, header.component_count, *state.coefficients, stop)) {
+    if (stop.requested()) return Status::cancelled();
     return Status::corrupt("the coefficient section is damaged");
   }
   std::vector<std::vector<float>> planes =
@@ -135,7 +138,8 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   if (motion.regions() > 0) add_motion(motion, planes);
   if (header.profile == Profile::kThesis) {
     out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);
-  } else if (Status s = decode_basis(chunk, surface, std::move(planes), state, out); !s.ok()) {
+  } else if (Status s = decode_basis(chunk, surface, std::move(planes), stop, state, out);
+             !s.ok()) {
     return s;
   }
   if (Status s = decode_corrections(chunk, surface, out); !s.ok()) return s;

@@ -9,6 +9,7 @@
 #include "bitstream/status.h"
 #include "codec/common/group_state.h"
 #include "codec/common/prediction_graph.h"
+#include "codec/common/stop.h"
 #include "codec/common/synthesis.h"
 
 namespace reeb {
@@ -22,12 +23,15 @@ struct DecodedSurface {
   float grid_step = 0;           ///< world units
 };
 
-/// Decodes `count` components of the coefficient section; false where it is damaged.
-bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field);
+/// Decodes `count` components of the coefficient section; false where it is damaged, or `stop` is
+/// requested.
+bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& field,
+                         const StopToken& stop = {});
 
 /// Decodes a group. One that continues another needs the state which that one left; with `keep`,
-/// `state` is then what this group leaves, otherwise it is used up.
+/// `state` is then what this group leaves, otherwise it is used up. kCancelled soon after `stop` is
+/// requested.
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
-                    bool keep, GroupState& state, GroupSynthesis& out);
+                    bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop = {});
 
 }  // namespace reeb

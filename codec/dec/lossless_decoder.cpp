@@ -10,7 +10,7 @@
 namespace reeb {
 
 Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surface,
-                             unsigned threads, ExactFrames& out) {
+                             unsigned threads, const StopToken& stop, ExactFrames& out) {
   const Status damaged = Status::corrupt("the frames of a lossless group are damaged");
   if (chunk.header.component_count > chunk.header.frame_count)
     return Status::corrupt("component_count does not fit the group's frames");
@@ -25,6 +25,7 @@ Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surf
   RepeatSyntax repeats;
   out = {};
   while (out.frame_count() < chunk.header.frame_count) {
+    if (stop.requested()) return Status::cancelled();
     const uint32_t distance = repeats.code(bits, 0);
     if (distance > out.frame_count()) return damaged;
     if (distance > 0) {

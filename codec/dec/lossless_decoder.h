@@ -6,8 +6,9 @@
 
 namespace reeb {
 
-/// Decodes all frames of a group of the lossless profile.
+/// Decodes all frames of a group of the lossless profile; kCancelled soon after `stop` is
+/// requested.
 Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surface,
-                             unsigned threads, ExactFrames& out);
+                             unsigned threads, const StopToken& stop, ExactFrames& out);
 
 }  // namespace reeb

@@ -78,6 +78,13 @@ Status decode_face_order(const MeshHeader& h, std::span<const uint8_t> bytes, Co
 
 }  // namespace
 
+uint64_t announced_triangles(std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  MeshHeader h;
+  if (!read_header(in, "mesh header", h).ok()) return 0;
+  return draco_triangle_count(in.take(h.draco_bytes));
+}
+
 Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out) {
   out = {};
   MeshHeader h;

@@ -10,6 +10,10 @@
 
 namespace reeb {
 
+/// Triangles that the mesh's Draco section announces, for a look at the memory they will take; 0
+/// where the bytes make no sense.
+uint64_t announced_triangles(std::span<const uint8_t> bytes);
+
 /// Decodes what `encode_reference` made. The bytes may be anything; memory and time stay within
 /// what `limits` and their length justify.
 Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out);

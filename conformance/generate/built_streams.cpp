@@ -100,10 +100,10 @@ void add_containers(Maker& m) {
   meta.metadata({{"a", "1"}, {"a", "2"}, {"", ""}});
   meta.chunk("meta", {0});
   meta.reference({}, mesh);
-  meta.metadata({{"\xFF\xFE", "no UTF-8"}});
+  meta.metadata({{"\xCE\xA9\x01", "\xF0\x9F\xA6\x8E\n"}});
   meta.group(mesh, plain_group(2, 1));
   meta.metadata({{"after", "the last group"}});
-  m.add("metadata_everywhere", "Several chunks of metadata, one empty, one that is no UTF-8.",
+  m.add("metadata_everywhere", "Several chunks of metadata, one empty, one beyond ASCII.",
         meta.finish());
 }
 

@@ -1,7 +1,7 @@
 """container.md section 1: descriptors."""
 import struct
 
-from .errors import Truncated, require
+from .errors import Corrupt, Truncated, require
 
 
 class Reader:
@@ -53,7 +53,11 @@ class Reader:
         return in_range(struct.unpack(">d", front + bytes(8 - count))[0], name, low, high)
 
     def text(self, name):
-        return self.take(self.uv(name)).decode("utf-8", "replace")
+        encoded = self.take(self.uv(name))
+        try:
+            return encoded.decode("utf-8")
+        except UnicodeDecodeError:
+            raise Corrupt(name + " is not UTF-8") from None
 
 
 def in_range(value, name, low, high):

@@ -136,8 +136,10 @@ TEST_CASE("limits are applied to the headers", "[container]") {
   limits = {};
   limits.max_faces = 3;
   CHECK(parse(file, limits).code() == StatusCode::kLimitExceeded);
-  limits = {6, 4, 10, 1};
+  limits = {6, 4, 10, 10'000};
   CHECK(parse(file, limits).ok());
+  limits.max_memory = 1000;  // headers are kept, too
+  CHECK(parse(file, limits).code() == StatusCode::kLimitExceeded);
 }
 
 TEST_CASE("chunks that contradict each other are corrupt", "[container]") {

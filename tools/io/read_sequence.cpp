@@ -154,6 +154,7 @@ Status read_stream(const fs::path& path, const ReadOptions& options, Sequence& o
   if (status.ok()) {
     report.stream = decoder->info();
     status = decode_sequence(bytes, decode_options, out);
+    if (status.code() == StatusCode::kTruncated && !out.shots.empty()) status = {};
   }
   if (!status.ok()) return {status.code(), path.string() + ": " + status.message()};
   if (report.stream->truncated) {

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <atomic>
+
+#include "codec/common/parallel.h"
+#include "codec/dec/decoder.h"
+#include "codec/dec/group_memory.h"
+#include "codec/dec/group_store.h"
+#include "codec/dec/guard.h"
+
+namespace reeb {
+
+namespace {
+
+/// Decodes the groups of one shot after another, several groups at a time.
+class SequenceDecoder {
+ public:
+  SequenceDecoder(std::span<const uint8_t> bytes, const DecodeOptions& options)
+      : bytes_(bytes),
+        options_(options),
+        source_(bytes),
+        account_(options.limits.max_memory),
+        store_(source_, options, account_) {}
+
+  Status run(Sequence& out);
+
+ private:
+  /// Consecutive groups: of one shot, or each continuing the one before.
+  struct Run {
+    size_t begin = 0, end = 0;
+  };
+  /// A place for the positions of the groups of a run, and what came of each.
+  struct Output {
+    Run run;
+    std::vector<size_t> first;  ///< float of each group's first frame, and of the end
+    std::vector<Status> results;
+    float* positions;
+  };
+
+  Status add_shot(const ReferenceChunk& reference, const Run& run, Shot& shot);
+  Status decode_groups(const ReferenceChunk& reference, const Run& run, Shot& shot);
+  std::vector<Run> split(const Run& run) const;
+  void decode_run(const ReferenceChunk& reference, const Run& run, unsigned threads, Output& out);
+  Status collect(const Output& out, Shot& shot);
+  unsigned workers(uint64_t vertices, const Run& run, size_t parts) const;
+  Status check_complete() const;
+
+  std::span<const uint8_t> bytes_;
+  const DecodeOptions& options_;
+  MemorySource source_;
+  MemoryAccount account_;
+  Lease output_;
+  ContainerReader container_;
+  GroupStore store_;
+  Status damage_;  // the first group that did not decode
+};
+
+// Into runs that decode on their own.
+std::vector<SequenceDecoder::Run> SequenceDecoder::split(const Run& run) const {
+  std::vector<Run> out;
+  for (size_t g = run.begin; g < run.end; ++g) {
+    if (out.empty() || !container_.groups[g].continues()) out.push_back({g, g});
+    out.back().end = g + 1;
+  }
+  return out;
+}
+
+// What follows a group that does not decode, or that is missing, is lost with it.
+void SequenceDecoder::decode_run(const ReferenceChunk& reference, const Run& run, unsigned threads,
+                                 Output& out) {
+  HeldState state;
+  Status status;
+  for (size_t g = run.begin; g < run.end; ++g) {
+    const GroupChunk& chunk = container_.groups[g];
+    const size_t i = g - out.run.begin;
+    const bool whole =
+        g == run.begin ? !chunk.continues() : follows(chunk, container_.groups[g - 1]);
+    if (status.ok() && (!whole || g - run.begin > kMostOpenGroups))
+      status = Status::corrupt("a group continues one that is not there");
+    std::shared_ptr<const OpenGroup> group;
+    if (status.ok())
+      status = store_.decode_next(chunk, reference, threads, g + 1 < run.end, state, group);
+    out.results[i] = status;
+    for (uint32_t t = 0; status.ok() && t < chunk.header.frame_count; ++t) {
+      const auto& output = group->shot->surface.output;
+      float* xyz = out.positions + out.first[i] + size_t{t} * output.size() * 3;
+      group->synthesis.frame(t, output, xyz, 3);
+    }
+  }
+}
+
+// As many as there are threads for, runs to decode, and memory to do it in.
+unsigned SequenceDecoder::workers(uint64_t vertices, const Run& run, size_t parts) const {
+  uint64_t most = 1;
+  for (size_t g = run.begin; g < run.end; ++g) {
+    const GroupChunk& group = container_.groups[g];
+    most =
+        std::max(most, group_memory(vertices, group.header) + state_memory(vertices) + group.size);
+  }
+  const uint64_t fit = (account_.limit() - account_.used()) / most;
+  const uint64_t wanted = std::min<uint64_t>(resolve_threads(options_.threads), parts);
+  return static_cast<unsigned>(std::max<uint64_t>(1, std::min(fit, wanted)));
+}
+
+// Closes the gaps that groups leave which do not decode.
+Status SequenceDecoder::collect(const Output& out, Shot& shot) {
+  size_t end = 0;
+  for (size_t i = 0; i < out.results.size(); ++i) {
+    const Status& result = out.results[i];
+    if (!result.ok() && result.code() != StatusCode::kCorrupt) return result;
+    if (!result.ok() && damage_.ok()) damage_ = result;
+    if (!result.ok()) continue;
+    const size_t size = out.first[i + 1] - out.first[i];
+    if (end != out.first[i]) std::copy_n(out.positions + out.first[i], size, out.positions + end);
+    end += size;
+    shot.frame_count += container_.groups[out.run.begin + i].header.frame_count;
+  }
+  shot.positions.resize(end);
+  return {};
+}
+
+Status SequenceDecoder::decode_groups(const ReferenceChunk& reference, const Run& run, Shot& shot) {
+  const size_t frame_size = size_t{shot.connectivity.vertex_count} * 3;
+  Output out = {run, {0}, std::vector<Status>(run.end - run.begin), shot.positions.data()};
+  for (size_t g = run.begin; g < run.end; ++g)
+    out.first.push_back(out.first.back() + container_.groups[g].header.frame_count * frame_size);
+  const std::vector<Run> parts = split(run);
+  const unsigned count = workers(shot.connectivity.vertex_count, run, parts.size());
+  const unsigned threads = std::max(1u, resolve_threads(options_.threads) / count);
+  std::atomic<size_t> next{0};
+  parallel_ranges(count, count, [&](uint32_t, uint32_t) {
+    for (size_t i = next++; i < parts.size(); i = next++)
+      decode_run(reference, parts[i], threads, out);
+  });
+  return collect(out, shot);
+}
+
+Status SequenceDecoder::add_shot(const ReferenceChunk& reference, const Run& run, Shot& shot) {
+  std::shared_ptr<ShotFaces> faces;
+  if (Status s = store_.get_faces(reference, faces); !s.ok()) return s;
+  uint64_t frames = 0;
+  for (size_t g = run.begin; g < run.end; ++g) frames += container_.groups[g].header.frame_count;
+  const uint64_t floats = 3 * uint64_t{faces->connectivity.vertex_count} * frames;
+  if (floats > options_.limits.max_memory / sizeof(float) ||
+      !output_.grow(account_, floats * sizeof(float) + kept_memory(faces->connectivity)))
+    return Status::limit("the sequence needs more memory than the limit allows");
+  shot.connectivity = faces->connectivity;
+  shot.positions.resize(static_cast<size_t>(floats));
+  return decode_groups(reference, run, shot);
+}
+
+Status SequenceDecoder::check_complete() const {
+  if (!damage_.ok()) return damage_;
+  StreamInfo info;
+  update_info(container_, bytes_.size(), true, 0, info);
+  if (info.missing.empty()) {
+    const bool open_ended = (container_.header.flags & SequenceHeader::kOpenEnded) != 0;
+    if (!container_.truncated || !open_ended) return {};
+    return Status::truncated("the stream ends early");  // nobody knows how many frames there were
+  }
+  const StreamInfo::Gap& gap = info.missing.front();
+  const std::string from = "frame " + std::to_string(gap.first_frame + 1);
+  if (container_.truncated && gap.first_frame == info.frame_count)
+    return Status::truncated("the stream ends before " + from);
+  return Status::corrupt(from + " to " +
+                         std::to_string(uint64_t{gap.first_frame} + gap.frame_count) +
+                         " are damaged or cut off");
+}
+
+Status SequenceDecoder::run(Sequence& out) {
+  if (Status s = container_.parse(bytes_, options_.limits); !s.ok()) return s;
+  out.frame_rate = container_.header.frame_rate;
+  out.start_time = container_.header.start_time;
+  for (const MetadataEntry& m : container_.metadata) out.metadata[m.key] = m.value;
+  const auto& groups = container_.groups;
+  for (Run run; run.begin < groups.size(); run.begin = run.end) {
+    const uint32_t shot = groups[run.begin].header.shot;
+    while (run.end < groups.size() && groups[run.end].header.shot == shot) ++run.end;
+    const ReferenceChunk* reference = container_.reference(shot);
+    if (reference == nullptr) continue;
+    out.shots.emplace_back();
+    const Status status = add_shot(*reference, run, out.shots.back());
+    if (status.code() == StatusCode::kCorrupt && damage_.ok()) damage_ = status;
+    if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
+    if (out.shots.back().frame_count == 0) out.shots.pop_back();
+  }
+  return check_complete();
+}
+
+}  // namespace
+
+Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
+                       Sequence& out) {
+  out = {};
+  const Status status = guarded([&] { return SequenceDecoder(bytes, options).run(out); });
+  const bool partly =
+      status.code() == StatusCode::kTruncated || status.code() == StatusCode::kCorrupt;
+  if (!status.ok() && !partly) out = {};
+  return status;
+}
+
+}  // namespace reeb

@@ -1,0 +1,69 @@
+#include "codec/dec/group_memory.h"
+
+#include "codec/common/correction_field.h"
+#include "codec/common/field.h"
+#include "codec/common/kernels.h"
+#include "codec/common/motion_model.h"
+#include "codec/dec/draco_connectivity.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint64_t kBytesPerRow =
+    2600;  ///< of weights, graph and contexts of a field while it is decoded
+
+template <class T>
+uint64_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles) {
+  return header.vertex_count * kBytesPerRow + draco_triangles * kDracoMemoryPerTriangle;
+}
+
+uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
+  if (h.profile == Profile::kLossless) return vertices * kBytesPerRow + kept_memory(vertices, h);
+  const uint64_t components = h.component_count;
+  const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
+  // The basis is there as it was decoded, by component and by frame.
+  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 12 * (components + 1));
+  const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
+                                        uint64_t{h.region_count} * sizeof(MotionModel::Transform));
+  const bool corrected = h.correction_count > 0;
+  const uint64_t corrections = corrected ? CorrectionField::memory(vertices, h.frame_count) +
+                                               2 * Corrections::kEntryBytes * h.correction_count
+                                         : 0;
+  return surface + basis + motion + corrections;
+}
+
+// The estimator and its weights, what contexts look back on, and the contexts themselves.
+uint64_t state_memory(uint64_t vertices) {
+  constexpr uint64_t kBytesPerStateRow = sizeof(WeightBatch) / kLanes + 192;
+  return (vertices + kLanes) * kBytesPerStateRow + sizeof(MagnitudeModel) + sizeof(Field);
+}
+
+uint64_t kept_memory(const DecodedSurface& s) {
+  const PredictionGraph& graph = s.surface.graph;
+  return sizeof(DecodedSurface) + bytes_of(s.grid) + bytes_of(s.output) +
+         bytes_of(s.surface.order) + bytes_of(graph.rows) + bytes_of(graph.step_level) +
+         bytes_of(graph.link_begin) + bytes_of(graph.links);
+}
+
+uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {
+  if (h.profile == Profile::kLossless) {
+    const uint64_t stored = h.component_count * (12 * vertices + 2 * sizeof(std::vector<float>));
+    return sizeof(GroupSynthesis) + stored + 4 * sizeof(uint32_t) * uint64_t{h.frame_count};
+  }
+  const uint64_t planes = h.component_count * (4 * vertices + sizeof(std::vector<float>));
+  const uint64_t times = 3 * uint64_t{h.frame_count} * (4 * uint64_t{h.component_count} + 8);
+  const uint64_t corrections = h.frame_count * sizeof(std::vector<float>) +
+                               2 * Corrections::kEntryBytes * h.correction_count;
+  return sizeof(GroupSynthesis) + planes + times + corrections;
+}
+
+uint64_t kept_memory(const Connectivity& c) { return bytes_of(c.face_sizes) + bytes_of(c.corners); }
+
+}  // namespace reeb

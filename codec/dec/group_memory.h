@@ -1,0 +1,27 @@
+// How much memory decoding takes, known before any of it is allocated.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/container.h"
+#include "codec/common/sequence.h"
+#include "codec/dec/group_decoder.h"
+
+namespace reeb {
+
+/// Bytes that decoding a reference mesh and preparing it for prediction takes at most; `draco`:
+/// the triangles that its Draco section announces.
+uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles);
+
+/// Bytes that decoding a group takes at most, its surface included.
+uint64_t group_memory(uint64_t vertices, const GroupHeader& header);
+
+/// Bytes that what a group has learned takes, for the next one.
+uint64_t state_memory(uint64_t vertices);
+
+/// Bytes that stay.
+uint64_t kept_memory(const DecodedSurface& surface);
+uint64_t kept_memory(uint64_t vertices, const GroupHeader& header);
+uint64_t kept_memory(const Connectivity& connectivity);
+
+}  // namespace reeb
