@@ -1,5 +1,5 @@
 // Splits streams into first inputs for the fuzzers: fuzz_seeds FOLDER STREAM...
-// writes FOLDER/{container,decode,group,reference}/.
+// writes FOLDER/{container,decode,group,push,reference}/.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +13,21 @@ void write(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
+}
+
+/// As group_fuzz takes it; counts of the header are the fuzzer's own.
+std::vector<uint8_t> group_input(const reeb::GroupChunk& group) {
+  const bool moving = group.header.region_count > 0;
+  const bool corrected = group.header.correction_count > 0;
+  std::vector<uint8_t> out = {static_cast<uint8_t>(static_cast<uint8_t>(group.header.profile) +
+                                                   (moving ? 66 : 0) + (corrected ? 129 : 0))};
+  for (const auto& section : {group.motion, group.coefficients, group.basis}) {
+    out.push_back(static_cast<uint8_t>(section.size()));
+    out.push_back(static_cast<uint8_t>(section.size() >> 8));
+  }
+  for (const auto& section : {group.motion, group.coefficients, group.basis, group.corrections})
+    out.insert(out.end(), section.begin(), section.end());
+  return out;
 }
 
 }  // namespace
@@ -30,12 +45,11 @@ int main(int argc, char** argv) {
     write(folder / "decode" / name, file);
     for (const reeb::ReferenceChunk& r : reader.references)
       write(folder / "reference" / (name + std::to_string(r.header.shot)), r.mesh);
-    for (size_t g = 0; g < reader.groups.size(); ++g) {
-      reeb::Chunk chunk;
-      if (reeb::read_chunk(file, reader.groups[g].offset, chunk) != reeb::ChunkResult::kFound)
-        return 1;
-      write(folder / "group" / (name + std::to_string(g)), chunk.payload);
-    }
+    std::vector<uint8_t> pushed = {7};
+    pushed.insert(pushed.end(), file.begin(), file.end());
+    write(folder / "push" / name, pushed);
+    for (size_t g = 0; g < reader.groups.size(); ++g)
+      write(folder / "group" / (name + std::to_string(g)), group_input(reader.groups[g]));
   }
   return 0;
 }

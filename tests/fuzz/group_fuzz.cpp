@@ -1,10 +1,21 @@
-// The payload of a GRUP chunk on a mesh that is always the same.
+// The sections of a GRUP chunk on a mesh and behind headers that are always the same. Input: a byte
+// that chooses the header, two bytes each for the lengths of all sections but the last, the
+// sections.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "bitstream/bytes.h"
 #include "bitstream/container.h"
-#include "bitstream/syntax.h"
 #include "codec/dec/group_decoder.h"
 #include "tests/codec/shapes.h"
 
 namespace {
+
+using reeb::GroupHeader;
+using reeb::Profile;
+
+constexpr uint32_t kFrames = 8;
 
 reeb::DecodedSurface make_surface() {
   const reeb::test::Shape shape = reeb::test::torus(8, 6);
@@ -16,23 +27,46 @@ reeb::DecodedSurface make_surface() {
   return out;
 }
 
+/// Every profile, with and without a motion model and corrections.
+GroupHeader make_header(uint8_t choice) {
+  constexpr std::array kProfiles = {Profile::kMain, Profile::kFast, Profile::kThesis};
+  GroupHeader h;
+  h.frame_count = kFrames;
+  h.profile = kProfiles[choice % kProfiles.size()];
+  h.component_count = h.profile == Profile::kThesis ? 3 * kFrames : 6;
+  h.quantization_step = 0.01f;
+  h.region_count = (choice & 0x40) != 0 ? 3 : 0;
+  if ((choice & 0x80) != 0) {
+    h.flags = GroupHeader::kCorrected;
+    h.correction_step = 0.01;
+    h.correction_count = choice >> 2 & 7;
+  }
+  return h;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const reeb::DecodedSurface surface = make_surface();
   reeb::ByteReader in({data, size});
   reeb::GroupChunk chunk;
-  if (!reeb::read_header(in, "GRUP", chunk.header).ok()) return 0;
-  // More would be refused by the limits before the group is decoded.
-  if (chunk.header.frame_count > 500) return 0;
-  chunk.motion = in.take(chunk.header.motion_bytes);
-  chunk.coefficients = in.take(chunk.header.coefficient_bytes);
-  chunk.basis = in.take(chunk.header.basis_bytes);
+  chunk.header = make_header(in.u8());
+  std::array<uint32_t, 3> lengths;
+  for (uint32_t& length : lengths) length = in.u8() | uint32_t{in.u8()} << 8;
   if (!in.ok()) return 0;
+  chunk.motion = in.take(std::min<size_t>(lengths[0], in.remaining()));
+  chunk.coefficients = in.take(std::min<size_t>(lengths[1], in.remaining()));
+  chunk.basis = in.take(std::min<size_t>(lengths[2], in.remaining()));
+  chunk.corrections = in.take(in.remaining());
+  chunk.header.motion_bytes = chunk.motion.size();
+  chunk.header.coefficient_bytes = chunk.coefficients.size();
+  chunk.header.basis_bytes = chunk.basis.size();
+  chunk.header.correction_bytes = chunk.corrections.size();
+  reeb::GroupState state;
   reeb::GroupSynthesis synthesis;
-  if (!reeb::decode_group(chunk, surface, 1, synthesis).ok()) return 0;
-  if (synthesis.frame_count() != chunk.header.frame_count) __builtin_trap();
+  if (!reeb::decode_group(chunk, surface, 1, false, state, synthesis).ok()) return 0;
+  if (synthesis.frame_count() != kFrames) __builtin_trap();
   std::vector<float> xyz(surface.output.size() * 3);
-  synthesis.frame(chunk.header.frame_count - 1, surface.output, xyz.data(), 3);
+  for (const uint32_t t : {0u, kFrames - 1}) synthesis.frame(t, surface.output, xyz.data(), 3);
   return 0;
 }

@@ -1,19 +1,37 @@
 #!/usr/bin/env bash
-# Builds the fuzzers with Clang under AddressSanitizer and UndefinedBehaviorSanitizer and runs each for a while on seeds
-# made from the golden streams. Usage: tests/fuzz/run.sh [BUILD_FOLDER [SECONDS]]
+# Builds the fuzzers with Clang under AddressSanitizer and UndefinedBehaviorSanitizer and runs each for a while, from the
+# inputs in tests/fuzz/corpus and from the golden streams. Usage: tests/fuzz/run.sh [SECONDS [BUILD_FOLDER]]
+# With REEB_KEEP_CORPUS=1 what was learned goes, made small, to tests/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-build=${1:-build-fuzz}
-seconds=${2:-60}
-fuzzers=(container_fuzz decode_fuzz group_fuzz reference_fuzz)
-cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
-cmake --build "$build" --target "${fuzzers[@]}" fuzz_seeds
+seconds=${1:-60}
+build=${2:-build-fuzz}
+fuzzers=(container decode group push reference)
+cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
+cmake --build "$build" --target "${fuzzers[@]/%/_fuzz}" fuzz_seeds
+rm -rf "$build/seeds"
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds" tests/codec/data/*.reeb
-for fuzzer in "${fuzzers[@]}"; do
-  mkdir -p "$build/found/$fuzzer"
-  "$build/tests/fuzz/$fuzzer" -max_len=16384 -rss_limit_mb=1500 -timeout=20 -max_total_time="$seconds" -verbosity=0 \
-    -artifact_prefix="$build/found/" "$build/found/$fuzzer" "$build/seeds/${fuzzer%_fuzz}"
-  echo "$fuzzer: nothing found in $seconds s"
+for name in "${fuzzers[@]}"; do
+  fuzzer=$build/tests/fuzz/${name}_fuzz
+  corpus=tests/fuzz/corpus/$name
+  mkdir -p "$build/found/$name" "$corpus"
+  "$fuzzer" -max_len=16384 -rss_limit_mb=1500 -timeout=20 -max_total_time="$seconds" -verbosity=0 -print_final_stats=1 \
+    -artifact_prefix="$build/found/" "$build/found/$name" "$corpus" "$build/seeds/$name" 2>&1 |
+    grep -E 'ERROR|SUMMARY|artifact|number_of_executed|#[0-9]+ 0x' || true
+  [[ ${PIPESTATUS[0]} -eq 0 ]] || { echo "$name: see the input in $build/found" >&2; exit 1; }
+  echo "$name: nothing found in $seconds s"
+  if [[ -n ${REEB_KEEP_CORPUS:-} ]]; then
+    rm -rf "$build/kept" && mkdir "$build/kept"
+    "$fuzzer" -merge=1 -max_len=2048 "$build/kept" "$corpus" "$build/found/$name" 2>/dev/null
+    rm -rf "$corpus" && mkdir "$corpus"
+    # The shortest inputs, up to 64 KB of them: seeds to learn from, not a record.
+    total=0
+    for input in $(ls -Sr "$build/kept"); do
+      total=$((total + $(stat -c %s "$build/kept/$input")))
+      [[ $total -le 65536 ]] || break
+      cp "$build/kept/$input" "$corpus/"
+    done
+  fi
 done
