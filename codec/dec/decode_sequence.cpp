@@ -152,11 +152,7 @@ Status SequenceDecoder::check_complete() const {
   if (!damage_.ok()) return damage_;
   StreamInfo info;
   update_info(container_, bytes_.size(), true, 0, info);
-  if (info.missing.empty()) {
-    const bool open_ended = (container_.header.flags & SequenceHeader::kOpenEnded) != 0;
-    if (!container_.truncated || !open_ended) return {};
-    return Status::truncated("the stream ends early");  // nobody knows how many frames there were
-  }
+  if (info.missing.empty()) return {};
   const StreamInfo::Gap& gap = info.missing.front();
   const std::string from = "frame " + std::to_string(gap.first_frame + 1);
   if (container_.truncated && gap.first_frame == info.frame_count)
