@@ -67,7 +67,7 @@ class DifferenceHistory {
     c.expected = std::max(all, 0);
     c.axis = axis;
     c.level = level_[row];
-    c.sign_before = own.sign[axis];
+    c.sign_before = int32_t{own.sign[axis]};
     c.sign_nearest = r.count > 0 ? nearest.sign[axis] : 0;
     c.sign_next = r.count > 1 ? traces_[r.neighbour[1]].sign[axis] : 0;
     return c;

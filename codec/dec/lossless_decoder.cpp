@@ -11,7 +11,7 @@ namespace reeb {
 
 Status decode_lossless_group(const GroupChunk& chunk, const DecodedSurface& surface,
                              unsigned threads, const StopToken& stop, ExactFrames& out) {
-  const Status damaged = Status::corrupt("the frames of a lossless group are damaged");
+  Status damaged = Status::corrupt("the frames of a lossless group are damaged");
   if (chunk.header.component_count > chunk.header.frame_count)
     return Status::corrupt("component_count does not fit the group's frames");
   BinaryDecoder bits(chunk.coefficients);

@@ -23,6 +23,9 @@ constexpr int kTrials = 10;
 constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
 constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corrections
 constexpr double kThriftRatio = 0.75;   ///< between weights of bits that are tried
+// Squared error in q^2 that a bit is worth where settings are compared: most coefficients are 0, so
+// it is more than the ln(2) / 6 of a fine quantizer.
+constexpr double kErrorPerBit = 0.2;
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -120,17 +123,8 @@ Status SequenceEncoder::search(double slack, double tolerance, int max_trials) {
     return status.ok() ? attempts.back().excess - slack : 0;
   });
   if (!status.ok()) return status;
-  for (Attempt& a : attempts) {
-    if (a.q != found.q) continue;
-    for (const Attempt& other : attempts) {
-      const double bits =
-          8 * (static_cast<double>(a.bytes.size()) - static_cast<double>(other.bytes.size()));
-      if (std::abs(bits) > 64)
-        slope_ = std::max(0.0, (other.squared_error - a.squared_error) / bits);
-    }
-    best_ = std::move(a);
-    break;
-  }
+  best_ = std::move(*std::find_if(attempts.begin(), attempts.end(),
+                                  [&](const Attempt& a) { return a.q == found.q; }));
   return {};
 }
 
@@ -220,7 +214,7 @@ void SequenceEncoder::set_regions(uint32_t count) {
 Status SequenceEncoder::try_setting(bool& kept) {
   Attempt a;
   if (Status s = attempt(best_.q, a); !s.ok()) return s;
-  const double slope = slope_ > 0 ? slope_ : 0.1 * best_.q * best_.q;
+  const double slope = kErrorPerBit * best_.q * best_.q;
   const auto cost = [&](const Attempt& x) {
     return (bounded() ? 0 : x.squared_error) + slope * 8 * static_cast<double>(x.bytes.size());
   };

@@ -70,8 +70,6 @@ class SequenceEncoder {
   double energy_ = 0;
   double vertex_frames_ = 0;
   Attempt best_;
-  double slope_ =
-      0;  ///< squared error that one bit buys, measured between two attempts; 0 while unknown
   double done_ = 0;
   bool exact_ = false;  ///< measure the KG error on positions instead of by the normal equations
 };

@@ -33,7 +33,8 @@ void snap(Shot& shot, const NumberSet& multiples, double bound) {
 void measure(std::span<const float> original, std::span<const float> snapped, ErrorFigures& out) {
   std::array<double, 3> mean{};
   for (size_t i = 0; i < original.size(); ++i) mean[i % 3] += static_cast<double>(original[i]);
-  for (double& m : mean) m /= static_cast<double>(original.size() / 3);
+  const size_t vertices = original.size() / 3;
+  for (double& m : mean) m /= static_cast<double>(vertices);
   for (size_t i = 0; i < original.size(); ++i) {
     const auto x = static_cast<double>(original[i]);
     const double error = std::abs(x - static_cast<double>(snapped[i]));
