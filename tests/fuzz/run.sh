@@ -9,7 +9,7 @@ seconds=${1:-60}
 build=${2:-build-fuzz}
 fuzzers=(container decode group push reference)
 cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
+  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
 cmake --build "$build" --target "${fuzzers[@]/%/_fuzz}" fuzz_seeds
 rm -rf "$build/seeds"
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds" tests/codec/data/*.reeb
@@ -17,10 +17,12 @@ for name in "${fuzzers[@]}"; do
   fuzzer=$build/tests/fuzz/${name}_fuzz
   corpus=tests/fuzz/corpus/$name
   mkdir -p "$build/found/$name" "$corpus"
+  log=$build/found/$name.log
+  status=0
   "$fuzzer" -max_len=16384 -rss_limit_mb=1500 -timeout=20 -max_total_time="$seconds" -verbosity=0 -print_final_stats=1 \
-    -artifact_prefix="$build/found/" "$build/found/$name" "$corpus" "$build/seeds/$name" 2>&1 |
-    grep -E 'ERROR|SUMMARY|artifact|number_of_executed|#[0-9]+ 0x' || true
-  [[ ${PIPESTATUS[0]} -eq 0 ]] || { echo "$name: see the input in $build/found" >&2; exit 1; }
+    -artifact_prefix="$build/found/" "$build/found/$name" "$corpus" "$build/seeds/$name" >"$log" 2>&1 || status=$?
+  grep -E 'ERROR|SUMMARY|artifact|number_of_executed|#[0-9]+ 0x' "$log" || true
+  [[ $status -eq 0 ]] || { echo "$name: see the input in $build/found" >&2; exit 1; }
   echo "$name: nothing found in $seconds s"
   if [[ -n ${REEB_KEEP_CORPUS:-} ]]; then
     rm -rf "$build/kept" && mkdir "$build/kept"
