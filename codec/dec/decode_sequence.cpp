@@ -174,7 +174,7 @@ Status SequenceDecoder::run(Sequence& out) {
     const ReferenceChunk* reference = container_.reference(shot);
     if (reference == nullptr) continue;
     out.shots.emplace_back();
-    const Status status = add_shot(*reference, run, out.shots.back());
+    Status status = add_shot(*reference, run, out.shots.back());
     if (status.code() == StatusCode::kCorrupt && damage_.ok()) damage_ = status;
     if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
     if (out.shots.back().frame_count == 0) out.shots.pop_back();
@@ -187,7 +187,7 @@ Status SequenceDecoder::run(Sequence& out) {
 Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
                        Sequence& out) {
   out = {};
-  const Status status = guarded([&] { return SequenceDecoder(bytes, options).run(out); });
+  Status status = guarded([&] { return SequenceDecoder(bytes, options).run(out); });
   const bool partly =
       status.code() == StatusCode::kTruncated || status.code() == StatusCode::kCorrupt;
   if (!status.ok() && !partly) out = {};

@@ -242,7 +242,7 @@ void Decoder::Impl::look_ahead(uint32_t frame) {
 Status Decoder::Impl::parse_pushed(bool last) {
   const auto lock = store.lock_source();
   const size_t groups = last ? 0 : container.groups.size();
-  const Status status = parser->advance(last);
+  Status status = parser->advance(last);
   // A damaged file has been read once more, which may have found more of it.
   if (last) info = {};
   if (parser->has_header()) update_info(container, source->size(), last, groups, info);

@@ -220,7 +220,7 @@ Status GroupStore::get(const GroupRequest& request, const StopToken& stop,
     if ((out = find(offset)) != nullptr) return {};
     if (const auto at = failures_.find(offset); at != failures_.end()) return at->second;
   }
-  const Status status = decode(request, Caller::kPlayer, stop, out);
+  Status status = decode(request, Caller::kPlayer, stop, out);
   const std::lock_guard lock(mutex_);
   if (status.ok()) keep(out, offset);
   if (status.code() == StatusCode::kCorrupt) failures_.try_emplace(offset, status);
