@@ -279,6 +279,11 @@ Status ContainerParser::take_metadata(const Chunk& chunk) {
   return {};
 }
 
+void ContainerParser::note_chunk(const Chunk& chunk, uint32_t frame_count) {
+  seen_.push_back({chunk.offset - seen_end_, chunk.size, frame_count});
+  seen_end_ = chunk.offset + chunk.size;
+}
+
 Status ContainerParser::check_reference(const Chunk& chunk, const ReferenceChunk& r) const {
   const bool first = out_.references.empty();
   if (r.header.shot >= out_.header.shot_count) return corrupt(chunk, "shot is not announced");
@@ -313,8 +318,7 @@ Status ContainerParser::take_reference(const Chunk& chunk) {
   if (Status s = check_reference(chunk, r); !s.ok()) return s;
   if (Status s = spend(2 * (sizeof(ReferenceChunk) + sizeof(SeekEntry))); !s.ok()) return s;
   out_.references.push_back(r);
-  seen_.push_back({chunk.offset - seen_end_, chunk.size, 0});
-  seen_end_ = chunk.offset + chunk.size;
+  note_chunk(chunk, 0);
   count("reference mesh", chunk.size);
   return {};
 }
@@ -355,8 +359,7 @@ Status ContainerParser::take_group(const Chunk& chunk) {
     return corrupt(chunk, "the seek table has another frame_count");
   if (Status s = spend(2 * (sizeof(GroupChunk) + sizeof(SeekEntry))); !s.ok()) return s;
   out_.groups.push_back(g);
-  seen_.push_back({chunk.offset - seen_end_, chunk.size, h.frame_count});
-  seen_end_ = chunk.offset + chunk.size;
+  note_chunk(chunk, h.frame_count);
   count("motion", h.motion_bytes);
   count("coefficients", h.coefficient_bytes);
   count("basis", h.basis_bytes);

@@ -54,6 +54,7 @@ class ContainerParser {
   Status take(const Chunk& chunk);
   Status take_metadata(const Chunk& chunk);
   Status take_reference(const Chunk& chunk);
+  void note_chunk(const Chunk& chunk, uint32_t frame_count);
   Status check_reference(const Chunk& chunk, const ReferenceChunk& reference) const;
   Status take_group(const Chunk& chunk);
   Status check_group(const Chunk& chunk, const GroupHeader& header) const;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "codec/common/faces.h"
 #include "segmentation/motion.h"
 #include "segmentation/skeleton.h"
 #include "tools/command.h"
@@ -32,25 +33,12 @@ struct Options {
   ConsoleOptions console;
 };
 
-// Every face as a fan.
-std::vector<uint32_t> triangles_of(const Connectivity& connectivity) {
-  std::vector<uint32_t> triangles;
-  const uint32_t* corner = connectivity.corners.data();
-  for (const uint32_t size : connectivity.face_sizes) {
-    for (uint32_t i = 2; i < size; ++i) {
-      triangles.insert(triangles.end(), {corner[0], corner[i - 1], corner[i]});
-    }
-    corner += size;
-  }
-  return triangles;
-}
-
 /// The segmentation of the first shot and everything that is made of it.
 class Segmented {
  public:
   Segmented(const Shot& shot, const Options& options)
       : shot_(shot),
-        triangles_(triangles_of(shot.connectivity)),
+        triangles_(fan_triangles(shot.connectivity)),
         result_(segmentation::segment(shot.frame(0), triangles_)),
         skeleton_(result_, shot.frame(0), triangles_),
         labels_(result_.labels) {

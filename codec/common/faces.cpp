@@ -39,4 +39,26 @@ bool same_faces(const Connectivity& a, const Connectivity& b) {
   return sorted_cycles(a) == sorted_cycles(b);
 }
 
+size_t fan_triangles(std::span<const uint32_t> face_sizes, std::span<const uint32_t> corners,
+                     uint32_t* out) {
+  size_t count = 0;
+  const uint32_t* face = corners.data();
+  for (const uint32_t size : face_sizes) {
+    for (uint32_t i = 2; i < size; ++i, count += 3) {
+      if (out == nullptr) continue;
+      out[count] = face[0];
+      out[count + 1] = face[i - 1];
+      out[count + 2] = face[i];
+    }
+    face += size;
+  }
+  return count;
+}
+
+std::vector<uint32_t> fan_triangles(const Connectivity& c) {
+  std::vector<uint32_t> out(fan_triangles(c.face_sizes, c.corners, nullptr));
+  fan_triangles(c.face_sizes, c.corners, out.data());
+  return out;
+}
+
 }  // namespace reeb

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bitstream/container_parser.h"
+#include "codec/common/faces.h"
 #include "codec/dec/group_store.h"
 #include "codec/dec/guard.h"
 #include "codec/dec/normals.h"

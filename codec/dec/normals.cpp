@@ -20,22 +20,6 @@ Vector cross(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-size_t fan_triangles(std::span<const uint32_t> face_sizes, std::span<const uint32_t> corners,
-                     uint32_t* out) {
-  size_t count = 0;
-  const uint32_t* face = corners.data();
-  for (const uint32_t size : face_sizes) {
-    for (uint32_t i = 2; i < size; ++i, count += 3) {
-      if (out == nullptr) continue;
-      out[count] = face[0];
-      out[count + 1] = face[i - 1];
-      out[count + 2] = face[i];
-    }
-    face += size;
-  }
-  return count;
-}
-
 void vertex_normals(std::span<const uint32_t> triangles, const float* positions, size_t stride,
                     std::span<double> sums, float* normals, size_t normal_stride) {
   std::fill(sums.begin(), sums.end(), 0.0);

@@ -7,11 +7,6 @@
 
 namespace reeb {
 
-/// Triangles of faces as in Connectivity: fans around the first corner. Writes 3 * (sum of (size -
-/// 2) over sizes >= 3) vertices to `out`, and returns how many; nullptr only counts.
-size_t fan_triangles(std::span<const uint32_t> face_sizes, std::span<const uint32_t> corners,
-                     uint32_t* out);
-
 /// Adds up the cross products of the triangles at each vertex, in binary64, and writes the unit
 /// vectors of the sums to `normals + v * normal_stride`; (0, 0, 0) where a sum is zero or not
 /// finite. `sums`: 3 * vertices values to work in.

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "codec/common/faces.h"
 #include "tools/io/read_sequence.h"
 
 namespace reeb::conformance {
@@ -74,13 +75,10 @@ std::span<const uint8_t> take_block(std::span<const uint8_t>& bytes) {
 
 std::vector<uint32_t> triangles_of(const Connectivity& mesh) {
   std::vector<uint32_t> out;
-  const uint32_t* corner = mesh.corners.data();
-  for (const uint32_t size : mesh.face_sizes) {
-    for (uint32_t i = 2; i < size; ++i) {
-      const uint32_t a = corner[0], b = corner[i - 1], c = corner[i];
-      if (a != b && b != c && c != a) out.insert(out.end(), {a, b, c});
-    }
-    corner += size;
+  const std::vector<uint32_t> fans = fan_triangles(mesh);
+  for (size_t t = 0; t < fans.size(); t += 3) {
+    const uint32_t a = fans[t], b = fans[t + 1], c = fans[t + 2];
+    if (a != b && b != c && c != a) out.insert(out.end(), {a, b, c});
   }
   return out;
 }
