@@ -6,6 +6,7 @@
 
 #include "codec/common/coding_tools.h"
 #include "codec/common/parallel.h"
+#include "codec/enc/sequence_summary.h"
 #include "codec/enc/step_search.h"
 
 namespace reeb {
@@ -29,12 +30,6 @@ constexpr double kErrorPerBit = 0.2;
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
-
-std::vector<MetadataEntry> metadata_of(const Sequence& sequence) {
-  std::vector<MetadataEntry> out;
-  for (const auto& [key, value] : sequence.metadata) out.push_back({key, value});
-  return out;
-}
 
 /// The nearest that the search came to a target that it did not meet.
 Status unreachable(const EncodeStats& nearest) {
@@ -90,12 +85,7 @@ Status SequenceEncoder::attempt(double q, Attempt& out) {
   out = {};
   out.q = q;
   ContainerWriter writer(out.bytes);
-  SequenceHeader header;
-  header.total_frames = sequence_.frame_count();
-  header.shot_count = static_cast<uint32_t>(shots_.size());
-  header.frame_rate = sequence_.frame_rate;
-  header.start_time = sequence_.start_time;
-  if (Status s = writer.begin(header); !s.ok()) return s;
+  if (Status s = writer.begin(header_of(sequence_)); !s.ok()) return s;
   if (Status s = writer.metadata(metadata_of(sequence_)); !s.ok()) return s;
   for (uint32_t i = 0; i < shots_.size(); ++i) {
     const std::vector<CodedGroup>& groups = out.shots.emplace_back(shots_[i]->encode(q));
@@ -297,17 +287,10 @@ ErrorSums SequenceEncoder::measure(const Attempt& a) const {
 
 EncodeStats SequenceEncoder::stats() const {
   const ErrorSums sums = measure(best_);
-  EncodeStats out;
-  out.bytes = best_.bytes.size();
-  out.bpvf = 8 * static_cast<double>(out.bytes) / vertex_frames_;
+  EncodeStats out = size_stats(best_.bytes, vertex_frames_);
   out.kg = kg_of(sums.squared);
   out.rmse = std::sqrt(sums.squared / vertex_frames_);
   out.max_error = sums.largest;
-  ContainerReader container;
-  if (container.parse(best_.bytes, Limits{}).ok()) {
-    for (const auto& [name, bytes] : container.sections)
-      out.sections.push_back({name, 8.0 * static_cast<double>(bytes)});
-  }
   for (const auto& shot : shots_) {
     if (shot->regions() > 0)
       out.notes.push_back("motion model with " + std::to_string(shot->regions()) + " regions");

@@ -6,6 +6,7 @@
 
 #include "codec/common/number_set.h"
 #include "codec/enc/lossless_sequence.h"
+#include "codec/enc/sequence_summary.h"
 
 namespace reeb {
 
@@ -52,17 +53,15 @@ Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
   const NumberSet multiples = NumberSet::multiples(step);
   Sequence snapped = sequence;
   ErrorFigures errors;
-  double vertex_frames = 0;
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     const Shot& shot = sequence.shots[i];
     snap(snapped.shots[i], multiples, options.target_value);
     for (uint32_t t = 0; t < shot.frame_count; ++t)
       measure(shot.frame(t), snapped.shots[i].frame(t), errors);
-    vertex_frames += static_cast<double>(shot.connectivity.vertex_count) * shot.frame_count;
   }
   if (Status s = encode_lossless(snapped, options, step, out, stats); !s.ok()) return s;
   stats.kg = errors.energy > 0 ? 100 * std::sqrt(errors.squared / errors.energy) : 0;
-  stats.rmse = std::sqrt(errors.squared / vertex_frames);
+  stats.rmse = std::sqrt(errors.squared / vertex_frames_of(sequence));
   stats.max_error = errors.largest;
   return {};
 }
