@@ -62,13 +62,15 @@ void describe(V& v, ReferenceHeader& h) {
 struct MeshHeader {
   static constexpr uint8_t kOrderKept = 1;      ///< vertices come back in the order of the input
   static constexpr uint8_t kFaceOrderKept = 2;  ///< faces, too, and their first corners
+  static constexpr uint8_t kPlain = 4;          ///< of the fast profile
   uint32_t vertex_count = 1;
   uint32_t face_count = 0;
   uint8_t flags = 0;
-  uint64_t draco_bytes = 0;  ///< Draco's part; 0 where no face is left to it
-  uint64_t rest_bytes = 0;   ///< what Draco does not carry
-  uint64_t order_bytes = 0;  ///< permutation to the order of the input
-  uint64_t face_bytes = 0;   ///< order and first corners of the faces
+  uint64_t draco_bytes = 0;     ///< Draco's part; 0 where no face is left to it
+  uint64_t rest_bytes = 0;      ///< what Draco does not carry
+  uint64_t position_bytes = 0;  ///< where plain: positions, which are in the rest otherwise
+  uint64_t order_bytes = 0;     ///< permutation to the order of the input
+  uint64_t face_bytes = 0;      ///< order and first corners of the faces
   bool operator==(const MeshHeader&) const = default;
 };
 
@@ -76,9 +78,11 @@ template <class V>
 void describe(V& v, MeshHeader& h) {
   v.uv("vertex_count", h.vertex_count, 1, kMaxVertices);
   v.uv("face_count", h.face_count, 0, kMaxUint32);
-  v.flags("flags", h.flags, MeshHeader::kOrderKept | MeshHeader::kFaceOrderKept);
+  v.flags("flags", h.flags,
+          MeshHeader::kOrderKept | MeshHeader::kFaceOrderKept | MeshHeader::kPlain);
   v.uv("draco_bytes", h.draco_bytes, 0, kMaxUint32);
   v.uv("rest_bytes", h.rest_bytes, 0, kMaxUint32);
+  if ((h.flags & MeshHeader::kPlain) != 0) v.uv("position_bytes", h.position_bytes, 0, kMaxUint32);
   v.uv("order_bytes", h.order_bytes, 0, kMaxUint32);
   if ((h.flags & MeshHeader::kFaceOrderKept) != 0) {
     v.uv("face_bytes", h.face_bytes, 0, kMaxUint32);

@@ -29,7 +29,8 @@ def f64(value):
     return bytes([len(raw)]) + raw
 
 
-LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("order", "order_bytes"), ("motion", "motion_bytes"),
+LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("position", "position_bytes"),
+           ("order", "order_bytes"), ("motion", "motion_bytes"),
            ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"), ("corrections", "correction_bytes"))
 
 
@@ -75,9 +76,14 @@ def read_reference(payload):
     """Fields of REFM and of its mesh."""
     f = Fields(payload)
     h = Header(shot=f.uv(), first_frame=f.uv(), origin=f.take(12), grid_step=f.take(4), flags=f.take(1),
-               vertex_count=f.uv(), face_count=f.uv(), mesh_flags=f.take(1), draco_bytes=f.uv(), rest_bytes=f.uv(),
-               order_bytes=f.uv())
-    return h.but(draco=f.take(h["draco_bytes"]), rest=f.take(h["rest_bytes"]), order=f.take(h["order_bytes"]))
+               vertex_count=f.uv(), face_count=f.uv(), mesh_flags=f.take(1), draco_bytes=f.uv(), rest_bytes=f.uv())
+    if h["mesh_flags"][0] & 4:
+        h["position_bytes"] = f.uv()
+    h["order_bytes"] = f.uv()
+    for section, length in LENGTHS:
+        if length in h:
+            h[section] = f.take(h[length])
+    return h
 
 
 def read_group(payload):
@@ -405,6 +411,27 @@ def add_sections(m):
              dict(coefficients=h["coefficients"][:len(h["coefficients"]) // 2])),
             ("lossless_distance", "A copy of a frame before the group.", dict(coefficients=bytes(8)))):
         m.add(name, "corrupt", sentence, exact.edited(b"GRUP", **changes))
+    fast = File(m.sound("fast_order"))
+    plain = read_reference(fast.chunks[1][1])
+    position, order = plain["position"], plain["order"]
+    for name, sentence, changes in (
+            ("plain_short_positions", "Half of the positions of a plain mesh.",
+             dict(position=position[:len(position) // 4 * 2])),
+            ("plain_no_positions", "A plain mesh without positions.", dict(position=b"")),
+            ("plain_half_word", "Half a word at the end of a lane section.", dict(position=position + b"\0")),
+            ("plain_long_tables", "Tables longer than their section.", dict(position=b"\xFF" * 4 + position[4:])),
+            ("plain_frequencies", "Frequencies that sum up to more than 2048.",
+             dict(position=struct.pack("<II", 100, 0) + bytes(100) + position[8:])),
+            ("plain_short_order", "Half of the order of a plain mesh.", dict(order=order[:len(order) // 4 * 2]))):
+        m.add(name, "corrupt", sentence, fast.edited(b"REFM", **changes))
+    h = read_group(fast.chunks[2][1])
+    m.add("fast_short_coefficients", "corrupt", "Half of a coefficient section of the fast profile.",
+          fast.edited(b"GRUP", coefficients=h["coefficients"][:len(h["coefficients"]) // 4 * 2]))
+    m.add("fast_no_basis", "corrupt", "No basis section in the fast profile.", fast.edited(b"GRUP", basis=b""))
+    m.add("fast_on_other_mesh", "corrupt", "A group of the fast profile on a mesh that is not plain.",
+          file.edited(b"GRUP", profile=b"\1"))
+    m.add("main_on_plain_mesh", "corrupt", "A group of the main profile on a plain mesh.",
+          fast.edited(b"GRUP", profile=b"\0"))
     listed = File(m.sound("listed_faces"))
     rest = read_reference(listed.chunks[1][1])["rest"]
     m.add("corner_out_of_range", "corrupt", "A listed face with a vertex that is not there.",

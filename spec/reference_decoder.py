@@ -3,7 +3,7 @@
 
     reference_decoder.py --draco COMMAND STREAM [OUT]
 
-Written from the chapters beside it, not from the product's sources; it needs Python 3.7 and nothing else, but for COMMAND,
+Written from the chapters beside it, not from the product's sources; it needs Python 3.8 and nothing else, but for COMMAND,
 which decodes the Draco file that reference_mesh.md section 1 puts together: `COMMAND FILE` prints the number of points,
 then the three points of every triangle. (conformance/draco_triangles.cpp is such a program.)
 

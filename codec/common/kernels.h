@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "codec/common/prediction_graph.h"
+#include "entropy/rans.h"
 
 namespace reeb {
 
@@ -29,6 +30,10 @@ struct alignas(64) WeightBatch {
   uint32_t count = 0;  ///< largest number of neighbours among the eight
 };
 
+/// Adds the reference positions of eight rows: y[i] is where neighbour i lies from the row, 0 for
+/// padding.
+using ObservePointsKernel = void (*)(WeightBatch&, const Lanes (*y)[3], const Lanes& inverse_noise);
+
 /// Adds one observation of every row: the plane of values, weighted by `inverse_noise`.
 using AccumulateKernel = void (*)(WeightBatch&, const float* values, double inverse_noise,
                                   bool sum_to_one);
@@ -46,10 +51,39 @@ inline constexpr uint32_t kTileRows = 32;
 using CombineKernel = void (*)(const float* tile, uint32_t plane_count, const float* scale,
                                const double mean[3], float (*out)[kTileRows]);
 
+/// What the kernels see of a LaneField: eight components of all rows.
+struct LaneBlock {
+  const uint32_t* neighbours = nullptr;  ///< kMaxNeighbours a row
+  const float* weights = nullptr;        ///< the same
+  const uint8_t* counts = nullptr;       ///< neighbours of each row
+  const uint8_t* rings = nullptr;        ///< of them in the ring
+  const float* steps = nullptr;          ///< of each row
+  const uint32_t* history = nullptr;     ///< of each row, in 1/16; null in the first block
+  float* values = nullptr;               ///< [row][lane]
+  uint16_t* magnitudes = nullptr;        ///< [row][lane]
+  uint32_t running[kRansLanes] = {};     ///< decaying means of the magnitudes, in 1/256
+  uint32_t row_count = 0;
+  bool whole = false;  ///< predictions are rounded to integers
+};
+
+/// Prediction and context class of a row's eight components.
+struct LaneGuess {
+  float prediction[kRansLanes];
+  uint32_t cls[kRansLanes];
+};
+
+using GuessLanesKernel = LaneGuess (*)(const LaneBlock&, uint32_t row);
+using NoteLanesKernel = void (*)(LaneBlock&, uint32_t row, const LaneGuess&, const int32_t* n);
+using DecodeLanesKernel = void (*)(LaneBlock&, RansDecoder&, uint32_t lanes);
+
 struct Kernels {
+  ObservePointsKernel observe_points;
   AccumulateKernel accumulate;
   SolveKernel solve;
   CombineKernel combine;
+  GuessLanesKernel guess_lanes;
+  NoteLanesKernel note_lanes;
+  DecodeLanesKernel decode_lanes;
 };
 
 /// The quickest kernels this processor has.

@@ -6,9 +6,22 @@
 
 #include "codec/common/kernels.h"
 
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within this file only
+#endif
+
 namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
+
+void observe_points(WeightBatch& batch, const Lanes (*y)[3], const Lanes& inverse_noise) {
+  for (uint32_t i = 0; i < batch.count; ++i) {
+    for (uint32_t j = 0; j <= i; ++j) {
+      const Lanes dot = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2];
+      batch.matrix[packed(i, j)] += dot * inverse_noise;
+    }
+  }
+}
 
 void accumulate(WeightBatch& batch, const float* values, double inverse_noise, bool sum_to_one) {
   const uint32_t n = batch.count;
@@ -135,9 +148,95 @@ void combine(const float* tile, uint32_t plane_count, const float* scale, const 
   }
 }
 
+using Lanes16 = uint16_t __attribute__((vector_size(kRansLanes * 2)));
+using LanesI = int32_t __attribute__((vector_size(kRansLanes * 4)));
+using LanesU = uint32_t __attribute__((vector_size(kRansLanes * 4)));
+using LanesF = float __attribute__((vector_size(kRansLanes * 4)));
+
+template <class V, class T>
+inline V load(const T* from) {
+  V out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
+inline LanesF predict_lanes(const LaneBlock& b, uint32_t row) {
+  constexpr float kRound = 12582912.0f;  // 3 * 2^22: leaves no fraction
+  const uint32_t* neighbour = b.neighbours + size_t{row} * kMaxNeighbours;
+  const float* w = b.weights + size_t{row} * kMaxNeighbours;
+  LanesF sum[4] = {};
+  for (uint32_t i = 0; i < b.counts[row]; i += 4) {
+    for (uint32_t j = 0; j < 4; ++j)
+      sum[j] += w[i + j] * load<LanesF>(b.values + size_t{neighbour[i + j]} * kRansLanes);
+  }
+  const LanesF all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  return b.whole ? (all + kRound) - kRound : all;
+}
+
+/// Classes by the expected magnitude, half an octave each.
+inline LanesU classify_lanes(const LaneBlock& b, uint32_t row) {
+  const uint32_t* neighbour = b.neighbours + size_t{row} * kMaxNeighbours;
+  const uint32_t ring = b.rings[row];
+  const LanesU running = load<LanesU>(b.running) >> 4;
+  LanesU near = running;
+  if (ring > 0) {
+    LanesU sum{};
+    for (uint32_t i = 0; i < ring; ++i) {
+      const auto m = load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes);
+      sum += __builtin_convertvector(m, LanesU);
+    }
+    near = sum * (65536 / ring) >> 12;
+  }
+  const LanesU expected = b.history != nullptr ? (3 * near + 3 * running + 10 * b.history[row]) >> 4
+                                               : (10 * near + 6 * running) >> 4;
+  const LanesF size = __builtin_convertvector(reinterpret_cast<LanesI>(expected + 1), LanesF);
+  const LanesU cls = (reinterpret_cast<LanesU>(size) >> 22) - 254;
+  return cls < kRansClasses - 1 ? cls : LanesU{} + (kRansClasses - 1);
+}
+
+inline void note_vectors(LaneBlock& b, uint32_t row, LanesF prediction, LanesI n) {
+  constexpr int32_t kMostMagnitude = 1023;
+  const LanesF value = prediction + __builtin_convertvector(n, LanesF) * b.steps[row];
+  std::memcpy(b.values + size_t{row} * kRansLanes, &value, sizeof value);
+  const LanesI size = n < 0 ? -n : n;
+  const LanesI capped = size < kMostMagnitude ? size : LanesI{} + kMostMagnitude;
+  const auto magnitude = __builtin_convertvector(capped, Lanes16);
+  std::memcpy(b.magnitudes + size_t{row} * kRansLanes, &magnitude, sizeof magnitude);
+  LanesU running = load<LanesU>(b.running);
+  running += reinterpret_cast<LanesU>(capped) * 32 - (running >> 3);
+  std::memcpy(b.running, &running, sizeof running);
+}
+
+LaneGuess guess_lanes(const LaneBlock& b, uint32_t row) {
+  LaneGuess out;
+  const LanesF prediction = predict_lanes(b, row);
+  const LanesU cls = classify_lanes(b, row);
+  std::memcpy(out.prediction, &prediction, sizeof prediction);
+  std::memcpy(out.cls, &cls, sizeof cls);
+  return out;
+}
+
+void note_lanes(LaneBlock& b, uint32_t row, const LaneGuess& guess, const int32_t* n) {
+  note_vectors(b, row, load<LanesF>(guess.prediction), load<LanesI>(n));
+}
+
+void decode_lanes(LaneBlock& b, RansDecoder& decoder, uint32_t lanes) {
+  alignas(32) int32_t n[kRansLanes] = {};
+  alignas(32) uint32_t cls[kRansLanes];
+  for (uint32_t row = 0; row < b.row_count; ++row) {
+    const LanesF prediction = predict_lanes(b, row);
+    const LanesU classes = classify_lanes(b, row);
+    std::memcpy(cls, &classes, sizeof cls);
+    for (uint32_t l = 0; l < lanes; ++l) n[l] = decoder.get(l, cls[l]);
+    decoder.settle();
+    note_vectors(b, row, prediction, load<LanesI>(n));
+  }
+}
+
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels = {accumulate, solve, combine};
+const Kernels kKernels = {observe_points, accumulate, solve,       combine,
+                          guess_lanes,    note_lanes, decode_lanes};
 
 }  // namespace reeb::REEB_KERNEL_NAMESPACE

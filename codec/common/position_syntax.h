@@ -50,10 +50,15 @@ Status code_loose_positions(Coder& coder, uint32_t first, uint32_t vertex_count,
   return {};
 }
 
-/// The whole section `rest` of a reference mesh.
+/// The whole section `rest` of a reference mesh. A plain one has its positions elsewhere: here all
+/// are (0, 0, 0).
 template <class Coder>
-Status code_rest(Coder& coder, MeshState& s, uint64_t max_corners) {
-  if (Status status = code_point_positions(coder, s); !status.ok()) return status;
+Status code_rest(Coder& coder, MeshState& s, uint64_t max_corners, bool plain) {
+  if (plain) {
+    s.point_grid.assign(size_t{s.point_count} * 3, 0);
+  } else if (Status status = code_point_positions(coder, s); !status.ok()) {
+    return status;
+  }
   if (Status status = SplitSyntax().code(coder, s); !status.ok()) return status;
   if (Status status = DiagonalSyntax().code(coder, s); !status.ok()) return status;
   const auto highest = std::max_element(s.vertex_of_point.begin(), s.vertex_of_point.end());
@@ -61,7 +66,10 @@ Status code_rest(Coder& coder, MeshState& s, uint64_t max_corners) {
   if (s.joined.sizes.size() > s.face_count)
     return Status::corrupt("mesh: more faces than announced");
   const auto listed = static_cast<uint32_t>(s.face_count - s.joined.sizes.size());
-  if (Status status = code_loose_positions(coder, covered, s.vertex_count, s.grid); !status.ok()) {
+  if (plain) {
+    s.grid.assign(size_t{s.vertex_count} * 3, 0);
+  } else if (Status status = code_loose_positions(coder, covered, s.vertex_count, s.grid);
+             !status.ok()) {
     return status;
   }
   return FaceListSyntax().code(coder, listed, s.vertex_count, max_corners, s.listed);

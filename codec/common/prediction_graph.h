@@ -52,6 +52,9 @@ struct SurfaceGraph {
   std::vector<uint32_t> order;  ///< row -> vertex of the reference mesh
 };
 
+/// Fills in what the distances between neighbours tell: priors, precisions, steps.
+void weigh_rows(const GridPoints& points, SurfaceGraph& surface);
+
 /// Coarse-to-fine graph of the reference mesh. Vertices without triangles come last, by nearness in
 /// space.
 SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles);

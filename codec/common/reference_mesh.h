@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/common/prediction_graph.h"
 #include "codec/common/sequence.h"
 
 namespace reeb {
@@ -23,7 +24,8 @@ struct ReferenceMesh {
   Connectivity connectivity;  ///< in output numbering; face order and first corners are free
   std::vector<int32_t> grid;  ///< [coding vertex][xyz], 0 .. kGridMax
   std::vector<uint32_t>
-      triangles;  ///< three coding vertices each, all different; every face as a fan
+      triangles;         ///< three coding vertices each, all different; every face as a fan
+  SurfaceGraph surface;  ///< of a plain mesh; else empty
   std::vector<uint32_t> output_index;  ///< output vertex of each coding vertex, a permutation
 };
 

@@ -68,8 +68,14 @@ class DiagonalSyntax {
     const bool any = coder.code(
         std::find(s.diagonal.begin(), s.diagonal.end(), 1) != s.diagonal.end(), kEvenOdds);
     s.diagonal.resize(s.triangles.size(), 0);
-    known_.resize(any ? s.triangles.size() / 3 : 0);
-    for (uint32_t h = 0; any && h < s.triangles.size(); ++h) {
+    if (!any) {
+      s.joined.sizes.assign(s.triangles.size() / 3, 3);
+      s.joined.corners = s.triangles;
+      return {};
+    }
+    if (s.twins.empty()) s.twins = pair_half_edges(s.triangles);
+    known_.resize(s.triangles.size() / 3);
+    for (uint32_t h = 0; h < s.triangles.size(); ++h) {
       const uint32_t twin = s.twins[h];
       if (twin == kNoTwin) {
         ++known_[h / 3].decided;

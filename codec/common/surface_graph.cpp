@@ -83,8 +83,8 @@ class SurfaceGraphBuilder {
       out.graph.rows[r] = make_row(r);
     }
     link_rings(out.graph);
-    assign_steps(out.graph);
     out.order = std::move(order_);
+    weigh_rows(points_, out);
     return out;
   }
 
@@ -126,66 +126,15 @@ class SurfaceGraphBuilder {
   }
 
   PredictionGraph::Row make_row(uint32_t rank) const {
-    const uint32_t v = order_[rank];
-    const Gathered& g = gathered_[v];
+    const Gathered& g = gathered_[order_[rank]];
     PredictionGraph::Row row;
     row.neighbour.fill(rank);
-    row.prior.fill(0.0f);
-    row.precision.fill(1.0f);
     row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
     const size_t wanted = uses(coding_tool::kExtraNeighbours) ? g.size() : g.ring.size();
     row.count = static_cast<uint8_t>(std::min<size_t>(wanted, kMaxNeighbours));
-    uint32_t inverse[kMaxNeighbours] = {};
-    uint64_t sum = 0;
-    for (uint32_t i = 0; i < row.count; ++i) {
-      const uint32_t u = i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()];
-      row.neighbour[i] = rank_[u];
-      if (i < row.ring) sum += inverse[i] = inverse_distance(v, u);
-    }
-    for (uint32_t i = 0; i < row.ring; ++i) {
-      const uint64_t share = (uint64_t{inverse[i]} << 16) / sum;
-      row.prior[i] = static_cast<float>(share) / 65536.0f;
-    }
-    assign_precision(row, v);
+    for (uint32_t i = 0; i < row.count; ++i)
+      row.neighbour[i] = rank_[i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()]];
     return row;
-  }
-
-  /// The farther a neighbour, the surer it counts for little: precision grows with the distance in
-  /// the ring and with its square beyond, the mean distance of the ring being 1.
-  void assign_precision(PredictionGraph::Row& row, uint32_t v) const {
-    uint32_t distance[kMaxNeighbours] = {};
-    uint32_t sum = 0;
-    for (uint32_t i = 0; i < row.count; ++i) {
-      distance[i] = std::max(4u, points_.distance_q4(v, order_[row.neighbour[i]]));
-      if (i < row.ring) sum += distance[i];
-    }
-    for (uint32_t i = 0; i < row.count; ++i) {
-      const double ratio = static_cast<double>(distance[i]) * row.ring / sum;
-      const double precision = i < row.ring ? ratio : ratio * ratio;
-      row.precision[i] = static_cast<float>(std::clamp(precision, kLeastPrecision, kMostPrecision));
-    }
-  }
-
-  /// 2^22 / distance in 1/16 grid units, the distance at least a quarter of the grid.
-  uint32_t inverse_distance(uint32_t v, uint32_t u) const {
-    return (1u << 22) / std::max(4u, points_.distance_q4(v, u));
-  }
-
-  /// Prediction mass M (1 plus the prior-weighted mass of what the row predicts) in 1/256, then
-  /// levels.
-  void assign_steps(PredictionGraph& graph) const {
-    std::vector<uint64_t> mass(graph.size(), 256);
-    graph.step_level.resize(graph.size());
-    if (!uses(coding_tool::kMassSteps)) return;
-    for (uint32_t r = graph.size(); r-- > 0;) {
-      const PredictionGraph::Row& row = graph.rows[r];
-      for (uint32_t i = 0; i < row.ring; ++i) {
-        const auto share = static_cast<uint64_t>(row.prior[i] * 65536.0f);
-        mass[row.neighbour[i]] += mass[r] * share >> 16;
-      }
-      const uint32_t level = (log2_q5(mass[r]) - 8 * 32) / 4;
-      graph.step_level[r] = static_cast<uint8_t>(std::min(level, kStepLevels - 1));
-    }
   }
 
   const GridPoints& points_;
@@ -195,7 +144,58 @@ class SurfaceGraphBuilder {
   std::vector<Gathered> gathered_;
 };
 
+/// The nearer a neighbour of the ring, the more it is expected to count, as 1 / distance; the
+/// farther a neighbour, the surer it counts for little: precision grows with the distance in the
+/// ring and with its square beyond, the mean distance of the ring being 1.
+void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uint32_t rank,
+               PredictionGraph::Row& row) {
+  uint32_t distance[kMaxNeighbours] = {};  // in 1/16 grid units, at least a quarter of the grid
+  uint32_t inverse[kMaxNeighbours] = {};
+  uint32_t sum = 0;
+  uint64_t inverse_sum = 0;
+  for (uint32_t i = 0; i < row.count; ++i) {
+    distance[i] = std::max(4u, points.distance_q4(order[rank], order[row.neighbour[i]]));
+    if (i >= row.ring) continue;
+    sum += distance[i];
+    inverse_sum += inverse[i] = (1u << 22) / distance[i];
+  }
+  row.prior.fill(0.0f);
+  row.precision.fill(1.0f);
+  for (uint32_t i = 0; i < row.ring; ++i) {
+    const uint64_t share = (uint64_t{inverse[i]} << 16) / inverse_sum;
+    row.prior[i] = static_cast<float>(share) / 65536.0f;
+  }
+  for (uint32_t i = 0; i < row.count; ++i) {
+    const double ratio = static_cast<double>(distance[i]) * row.ring / sum;
+    const double precision = i < row.ring ? ratio : ratio * ratio;
+    row.precision[i] = static_cast<float>(std::clamp(precision, kLeastPrecision, kMostPrecision));
+  }
+}
+
+/// Prediction mass M (1 plus the prior-weighted mass of what the row predicts) in 1/256, then
+/// levels.
+void assign_steps(PredictionGraph& graph) {
+  std::vector<uint64_t> mass(graph.size(), 256);
+  graph.step_level.resize(graph.size());
+  if (!uses(coding_tool::kMassSteps)) return;
+  for (uint32_t r = graph.size(); r-- > 0;) {
+    const PredictionGraph::Row& row = graph.rows[r];
+    for (uint32_t i = 0; i < row.ring; ++i) {
+      const auto share = static_cast<uint64_t>(row.prior[i] * 65536.0f);
+      mass[row.neighbour[i]] += mass[r] * share >> 16;
+    }
+    const uint32_t level = (log2_q5(mass[r]) - 8 * 32) / 4;
+    graph.step_level[r] = static_cast<uint8_t>(std::min(level, kStepLevels - 1));
+  }
+}
+
 }  // namespace
+
+void weigh_rows(const GridPoints& points, SurfaceGraph& surface) {
+  for (uint32_t r = 0; r < surface.graph.size(); ++r)
+    weigh_row(points, surface.order, r, surface.graph.rows[r]);
+  assign_steps(surface.graph);
+}
 
 SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles) {
   if (points.size() == 0) return {};

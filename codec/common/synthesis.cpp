@@ -75,20 +75,21 @@ double plane_norm(const std::vector<float>& plane) {
 }
 
 GroupSynthesis synthesize(uint32_t vertices, std::vector<std::vector<float>> planes,
-                          const Field& basis_field, const std::vector<uint32_t>& basis_order,
-                          double q, const float origin[3]) {
+                          const std::vector<std::vector<float>>& basis_planes,
+                          const std::vector<uint32_t>& basis_order, double q,
+                          const float origin[3]) {
   const size_t rows = basis_order.size();
   std::vector<double> mean(rows);
   const double mean_scale = q / std::sqrt(static_cast<double>(vertices));
   for (size_t r = 0; r < rows; ++r) {
-    const double moved = static_cast<double>(basis_field.plane(0)[r]) * mean_scale;
+    const double moved = static_cast<double>(basis_planes[0][r]) * mean_scale;
     mean[basis_order[r]] = static_cast<double>(origin[basis_order[r] % 3]) + moved;
   }
   std::vector<std::vector<float>> basis(planes.size(), std::vector<float>(rows));
   for (size_t k = 0; k < planes.size(); ++k) {
     const double norm = plane_norm(planes[k]);
     const double scale = norm > 0 ? q / norm : 0;
-    const std::vector<float>& coded = basis_field.plane(static_cast<uint32_t>(k) + 1);
+    const std::vector<float>& coded = basis_planes[k + 1];
     for (size_t r = 0; r < rows; ++r) {
       basis[k][basis_order[r]] = static_cast<float>(static_cast<double>(coded[r]) * scale);
     }

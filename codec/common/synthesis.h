@@ -10,7 +10,6 @@
 
 #include "codec/common/corrections.h"
 #include "codec/common/exact_frames.h"
-#include "codec/common/field.h"
 #include "codec/common/kernels.h"
 
 namespace reeb {
@@ -72,7 +71,8 @@ double plane_norm(const std::vector<float>& plane);
 /// temporal graph: the mean trajectory times sqrt(V), then each basis vector times the norm of its
 /// plane, both in units of q. `origin` is added to the mean trajectory.
 GroupSynthesis synthesize(uint32_t vertices, std::vector<std::vector<float>> planes,
-                          const Field& basis_field, const std::vector<uint32_t>& basis_order,
-                          double q, const float origin[3]);
+                          const std::vector<std::vector<float>>& basis_planes,
+                          const std::vector<uint32_t>& basis_order, double q,
+                          const float origin[3]);
 
 }  // namespace reeb

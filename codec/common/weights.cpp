@@ -33,6 +33,42 @@ void fade(WeightBatch& batch, double factor) {
   for (Lanes& entry : batch.target) entry *= factor;
 }
 
+/// Rows batch * kLanes and on; lanes past the end repeat the last row, and their results are
+/// dropped.
+void init_batch(WeightBatch& batch, uint32_t index, const PredictionGraph& graph,
+                const WeightOptions& options) {
+  for (uint32_t lane = 0; lane < kLanes; ++lane) {
+    const uint32_t row = std::min(index * kLanes + lane, graph.size() - 1);
+    init_lane(batch, lane, row, graph.rows[row], options);
+  }
+}
+
+/// The positions are exact to half a grid unit and to the surface's bending.
+void observe_batch(const PredictionGraph& graph, const GridPoints& points,
+                   const std::vector<uint32_t>& order, uint32_t index, const Kernels& kernels,
+                   WeightBatch& batch) {
+  constexpr double kGridVariance = 0.25;  // of half a grid unit
+  constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
+  Lanes y[kMaxNeighbours][3] = {};
+  Lanes inverse_noise{};
+  for (uint32_t lane = 0; lane < kLanes; ++lane) {
+    const uint32_t r = batch.self[lane];
+    const PredictionGraph::Row& row = graph.rows[r];
+    if (row.count == 0 || index * kLanes + lane > r) continue;
+    int64_t spread = 0;
+    for (uint32_t i = 0; i < row.count; ++i) {
+      for (int a = 0; a < 3; ++a) {
+        const int64_t d = points[order[row.neighbour[i]]][a] - points[order[r]][a];
+        y[i][a][lane] = static_cast<double>(d);
+        spread += d * d;
+      }
+    }
+    inverse_noise[lane] =
+        1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
+  }
+  kernels.observe_points(batch, y, inverse_noise);
+}
+
 }  // namespace
 
 WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptions& options,
@@ -43,11 +79,8 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
       batches_(std::make_unique<Batches>()),
       weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {
   batches_->items.resize((graph.size() + kLanes - 1) / kLanes, WeightBatch{});
-  for (uint32_t r = 0; r < batches_->items.size() * kLanes; ++r) {
-    // Lanes past the end repeat the last row; their results are dropped.
-    const uint32_t row = std::min(r, graph.size() - 1);
-    init_lane(batches_->items[r / kLanes], r % kLanes, row, graph.rows[row], options);
-  }
+  for (uint32_t b = 0; b < batches_->items.size(); ++b)
+    init_batch(batches_->items[b], b, graph, options);
 }
 
 WeightEstimator::~WeightEstimator() = default;
@@ -61,28 +94,8 @@ WeightEstimator::WeightEstimator(const WeightEstimator& other)
 
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
-  constexpr double kGridVariance = 0.25;  // of half a grid unit
-  constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
-  for (uint32_t r = 0; r < graph_.size(); ++r) {
-    const PredictionGraph::Row& row = graph_.rows[r];
-    double y[kMaxNeighbours][3];
-    double spread = 0;
-    for (uint32_t i = 0; i < row.count; ++i) {
-      for (int a = 0; a < 3; ++a) {
-        y[i][a] = points[order[row.neighbour[i]]][a] - points[order[r]][a];
-        spread += y[i][a] * y[i][a];
-      }
-    }
-    if (row.count == 0) continue;
-    const double inverse_noise = 1.0 / (kGridVariance + kBending * (spread / row.count));
-    WeightBatch& batch = batches_->items[r / kLanes];
-    for (uint32_t i = 0; i < row.count; ++i) {
-      for (uint32_t j = 0; j <= i; ++j) {
-        const double dot = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2];
-        batch.matrix[packed(i, j)][r % kLanes] += dot * inverse_noise;
-      }
-    }
-  }
+  for (uint32_t b = 0; b < batches_->items.size(); ++b)
+    observe_batch(graph_, points, order, b, batches_->kernels, batches_->items[b]);
 }
 
 void WeightEstimator::observe(const float* values, double noise) {
@@ -108,6 +121,25 @@ void WeightEstimator::solve(double fading) {
     }
   });
   pending_.clear();
+}
+
+std::vector<float> reference_weights(const PredictionGraph& graph, const WeightOptions& options,
+                                     const GridPoints& points, const std::vector<uint32_t>& order) {
+  const Kernels kernels = fastest_kernels();
+  std::vector<float> weights(size_t{graph.size()} * kMaxNeighbours, 0.0f);
+  float dropped[kMaxNeighbours];
+  for (uint32_t b = 0; b * kLanes < graph.size(); ++b) {
+    WeightBatch batch{};
+    init_batch(batch, b, graph, options);
+    observe_batch(graph, points, order, b, kernels, batch);
+    float* out[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) {
+      const uint32_t row = b * kLanes + l;
+      out[l] = row < graph.size() ? &weights[size_t{row} * kMaxNeighbours] : dropped;
+    }
+    kernels.solve(batch, options.sum_to_one, out);
+  }
+  return weights;
 }
 
 }  // namespace reeb

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "codec/common/correction_field.h"
+#include "codec/common/lane_field.h"
 #include "codec/common/motion_syntax.h"
 #include "codec/dec/lossless_decoder.h"
 
@@ -33,8 +34,8 @@ Status check_header(const GroupHeader& h) {
   if (h.region_count > MotionModel::kMaxRegions) {
     return Status::corrupt("region_count is out of range");
   }
-  if (thesis && (h.flags & GroupHeader::kContinues) != 0) {
-    return Status::corrupt("a group of the thesis profile continues another");
+  if (h.profile != Profile::kMain && (h.flags & GroupHeader::kContinues) != 0) {
+    return Status::corrupt("a group continues another in a profile where none does");
   }
   if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
     return Status::corrupt("a section is there that the group does not use");
@@ -66,18 +67,33 @@ Status start_group(const GroupChunk& chunk, const DecodedSurface& surface, unsig
   return Status::corrupt("a group continues one that is not there or of another profile");
 }
 
+bool decode_basis_planes(const GroupChunk& chunk, const PredictionGraph& graph,
+                         const StopToken& stop, MagnitudeModel& contexts,
+                         std::vector<std::vector<float>>& planes) {
+  const uint32_t count = chunk.header.component_count + 1;
+  if (chunk.header.profile == Profile::kFast) {
+    const std::vector<float> weights = prior_weights(graph);
+    LaneField field(graph, weights, {});
+    return decode_lane_field(chunk.basis, count, field, planes, stop);
+  }
+  Field field(graph, basis_field_options(), 1);
+  std::swap(field.model(), contexts);
+  BinaryDecoder decoder(chunk.basis);
+  for (uint32_t k = 0; k < count; ++k) {
+    if (stop.requested() || !decode_component(field, decoder)) return false;
+  }
+  std::swap(field.model(), contexts);
+  planes = field.take_planes();
+  return true;
+}
+
 Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
                     std::vector<std::vector<float>> planes, const StopToken& stop,
                     GroupState& state, GroupSynthesis& out) {
   const TemporalGraph temporal = build_temporal_graph(chunk.header.frame_count);
-  Field basis(temporal.graph, basis_field_options(), 1);
-  std::swap(basis.model(), state.basis_contexts);
-  BinaryDecoder decoder(chunk.basis);
-  for (uint32_t k = 0; k <= chunk.header.component_count; ++k) {
-    if (stop.requested()) return Status::cancelled();
-    if (!decode_component(basis, decoder)) return Status::corrupt("the basis section is damaged");
-  }
-  std::swap(basis.model(), state.basis_contexts);
+  std::vector<std::vector<float>> basis;
+  if (!decode_basis_planes(chunk, temporal.graph, stop, state.basis_contexts, basis))
+    return stop.requested() ? Status::cancelled() : Status::corrupt("the basis section is damaged");
   const double q = static_cast<double>(chunk.header.quantization_step);
   out = synthesize(surface.surface.graph.size(), std::move(planes), basis, temporal.order, q,
                    surface.origin);
@@ -115,9 +131,35 @@ bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& 
   return true;
 }
 
+namespace {
+
+/// The planes of the coefficient section.
+Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
+                     bool keep, const StopToken& stop, GroupState& state,
+                     std::vector<std::vector<float>>& planes) {
+  const uint32_t count = chunk.header.component_count;
+  bool whole = false;
+  if (chunk.header.profile == Profile::kFast) {
+    LaneField field(surface.surface.graph, surface.weights, {});
+    whole = decode_lane_field(chunk.coefficients, count, field, planes, stop);
+  } else {
+    if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
+    whole = decode_coefficients(chunk.coefficients, count, *state.coefficients, stop);
+  }
+  if (stop.requested()) return Status::cancelled();
+  if (!whole) return Status::corrupt("the coefficient section is damaged");
+  if (chunk.header.profile == Profile::kFast) return {};
+  planes = keep ? state.coefficients->next_group() : state.coefficients->take_planes();
+  return {};
+}
+
+}  // namespace
+
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop) {
   const GroupHeader& header = chunk.header;
+  if ((header.profile == Profile::kFast) == surface.weights.empty())
+    return Status::corrupt("the group's profile does not fit its reference mesh");
   if (header.profile == Profile::kLossless) {
     state = {};
     ExactFrames frames;
@@ -126,15 +168,11 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
     return {};
   }
   if (Status s = check_header(header); !s.ok()) return s;
-  if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
   MotionModel motion;
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
-  if (!decode_coefficients(chunk.coefficients, header.component_count, *state.coefficients, stop)) {
-    if (stop.requested()) return Status::cancelled();
-    return Status::corrupt("the coefficient section is damaged");
-  }
-  std::vector<std::vector<float>> planes =
-      keep ? state.coefficients->next_group() : state.coefficients->take_planes();
+  std::vector<std::vector<float>> planes;
+  if (Status s = decode_planes(chunk, surface, threads, keep, stop, state, planes); !s.ok())
+    return s;
   if (motion.regions() > 0) add_motion(motion, planes);
   if (header.profile == Profile::kThesis) {
     out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);

@@ -6,7 +6,10 @@
 #include "bitstream/bytes.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
+#include "codec/common/contraction.h"
 #include "codec/common/face_order.h"
+#include "codec/common/lane_field.h"
+#include "codec/common/plain_mesh.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -19,7 +22,7 @@ namespace {
 constexpr uint64_t kMaxCornersPerFace = 8;  // on average, of the faces the limits allow
 
 struct Sections {
-  std::span<const uint8_t> draco, rest, order, faces;
+  std::span<const uint8_t> draco, rest, positions, order, faces;
 };
 
 Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshHeader& h,
@@ -28,6 +31,7 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
   if (Status s = read_header(in, "mesh header", h); !s.ok()) return s;
   sections.draco = in.take(h.draco_bytes);
   sections.rest = in.take(h.rest_bytes);
+  sections.positions = in.take(h.position_bytes);
   sections.order = in.take(h.order_bytes);
   sections.faces = in.take(h.face_bytes);
   if (!in.ok() || in.remaining() != 0) return Status::corrupt("mesh: sections do not fill it");
@@ -40,17 +44,47 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
 }
 
 Status decode_state(const Sections& sections, const Limits& limits, uint64_t max_triangles,
-                    MeshState& state) {
+                    bool plain, MeshState& state) {
   if (!sections.draco.empty()) {
     DracoMesh mesh;
     if (Status s = decode_draco_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
       return s;
     state.point_count = mesh.point_count;
     state.triangles = std::move(mesh.triangles);
-    state.twins = pair_half_edges(state.triangles);
+    if (!plain) state.twins = pair_half_edges(state.triangles);
   }
   BinaryDecoder coder(sections.rest);
-  return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces);
+  return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces, plain);
+}
+
+Status decode_plain_positions(std::span<const uint8_t> bytes, const PredictionGraph& graph,
+                              const std::vector<uint32_t>& order, std::vector<int32_t>& grid) {
+  const std::vector<float> weights = position_weights(graph);
+  LaneField field(graph, weights, {.whole = true});
+  LaneField::Planes planes;
+  if (!decode_lane_field(bytes, 3, field, planes))
+    return Status::corrupt("mesh: positions are damaged");
+  for (size_t a = 0; a < 3; ++a) {
+    for (size_t r = 0; r < order.size(); ++r) {
+      const float x = planes[a][r];
+      if (!(x >= 0 && x <= static_cast<float>(kGridMax)))
+        return Status::corrupt("mesh: a position is off the grid");
+      grid[size_t{order[r]} * 3 + a] = static_cast<int32_t>(x);
+    }
+  }
+  return {};
+}
+
+Status decode_index_steps(std::span<const uint8_t> bytes, std::vector<uint32_t>& output_index) {
+  RansDecoder decoder;
+  if (!decoder.open(bytes) || !code_index_steps(decoder, output_index) || decoder.overrun())
+    return Status::corrupt("mesh: the order is damaged");
+  std::vector<bool> taken(output_index.size());
+  for (const uint32_t v : output_index) {
+    if (taken[v]) return Status::corrupt("mesh: the order has an index twice");
+    taken[v] = true;
+  }
+  return {};
 }
 
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
@@ -60,6 +94,10 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
     output_index.resize(h.vertex_count);
     std::iota(output_index.begin(), output_index.end(), 0u);
     return {};
+  }
+  if ((h.flags & MeshHeader::kPlain) != 0) {
+    output_index.assign(h.vertex_count, 0);
+    return decode_index_steps(bytes, output_index);
   }
   BinaryDecoder coder(bytes);
   return code_vertex_order(coder, h.vertex_count, triangles, output_index);
@@ -93,10 +131,18 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   MeshState state;
   state.vertex_count = h.vertex_count;
   state.face_count = h.face_count;
-  if (Status s = decode_state(sections, limits, kElementsPerByte * bytes.size(), state); !s.ok())
-    return s;
+  const bool plain = (h.flags & MeshHeader::kPlain) != 0;
+  const uint64_t max_triangles = kElementsPerByte * bytes.size();
+  if (Status s = decode_state(sections, limits, max_triangles, plain, state); !s.ok()) return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
+  if (plain) {
+    out.surface = contract_mesh(h.vertex_count, out.triangles);
+    Status s = decode_plain_positions(sections.positions, out.surface.graph, out.surface.order,
+                                      state.grid);
+    if (!s.ok()) return s;
+    weigh_rows(GridPoints(state.grid), out.surface);
+  }
   if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {
     return s;
   }

@@ -1,6 +1,7 @@
 #include "codec/enc/group_encoder.h"
 
 #include "codec/common/motion_syntax.h"
+#include "codec/enc/fast_encoder.h"
 #include "codec/enc/thesis_encoder.h"
 #include "codec/enc/transform_encoder.h"
 #include "entropy/range_coder.h"
@@ -20,6 +21,8 @@ std::unique_ptr<GroupEncoder> make_group_encoder(GroupSignal signal, Profile pro
                                                  unsigned threads) {
   if (profile == Profile::kThesis)
     return std::make_unique<ThesisEncoder>(std::move(signal), threads);
+  if (profile == Profile::kFast)
+    return std::make_unique<FastEncoder>(std::move(signal), profile, threads);
   return std::make_unique<TransformEncoder>(std::move(signal), profile, threads);
 }
 

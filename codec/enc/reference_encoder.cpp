@@ -8,8 +8,10 @@
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/connectivity.h"
+#include "codec/common/contraction.h"
 #include "codec/common/face_order.h"
 #include "codec/common/faces.h"
+#include "codec/common/plain_mesh.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -17,6 +19,7 @@
 #include "codec/enc/draco_connectivity_encoder.h"
 #include "codec/enc/face_matching.h"
 #include "codec/enc/face_set.h"
+#include "codec/enc/lane_field_encoder.h"
 #include "entropy/range_coder.h"
 
 namespace reeb {
@@ -176,10 +179,31 @@ MeshState make_state(const Connectivity& input, std::span<const int32_t> grid,
   return s;
 }
 
-Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
+std::vector<uint8_t> write_plain_positions(const MeshState& state) {
+  const SurfaceGraph surface = contract_mesh(state.vertex_count, collect_triangles(state));
+  const std::vector<float> weights = position_weights(surface.graph);
+  std::vector<std::vector<float>> targets(3);
+  for (size_t a = 0; a < 3; ++a) {
+    for (const uint32_t v : surface.order)
+      targets[a].push_back(static_cast<float>(state.grid[size_t{v} * 3 + a]));
+  }
+  LaneField field(surface.graph, weights, {.whole = true});
+  const SymbolCosts costs = expected_costs();
+  LaneFieldEncoder encoder(field, surface.graph, 0, 0, costs);
+  encoder.code_block(targets);
+  return encoder.section(3).finish();
+}
+
+Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, bool plain,
                    std::vector<uint8_t>& bytes) {
   std::vector<uint32_t> output_index(coding.size());
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
+  if (plain) {
+    RansEncoder steps;
+    code_index_steps(steps, output_index);
+    bytes = steps.finish();
+    return {};
+  }
   BinaryEncoder coder;
   Status status =
       code_vertex_order(coder, state.vertex_count, collect_triangles(state), output_index);
@@ -203,7 +227,10 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
                   const std::vector<uint32_t>& coding, const ReferenceOptions& options,
                   MeshState& state, std::vector<uint8_t>& bytes) {
   BinaryEncoder coder;
-  if (Status s = code_rest(coder, state, std::numeric_limits<uint64_t>::max()); !s.ok()) return s;
+  std::vector<uint8_t> positions;
+  if (options.plain) positions = write_plain_positions(state);
+  constexpr uint64_t kAny = std::numeric_limits<uint64_t>::max();
+  if (Status s = code_rest(coder, state, kAny, options.plain); !s.ok()) return s;
   std::vector<uint8_t> rest = coder.finish();
   // Zeros at the end of a range code mean nothing; they keep extreme meshes within the decoder's
   // bound.
@@ -212,7 +239,7 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
   rest.resize(std::max<size_t>(rest.size(), elements / kElementsPerByte + 1));
   std::vector<uint8_t> order;
   if (!options.reorder) {
-    if (Status s = write_order(state, coding, order); !s.ok()) return s;
+    if (Status s = write_order(state, coding, options.plain, order); !s.ok()) return s;
   }
   const bool keeps_faces = options.face_order && !options.reorder;
   std::vector<uint8_t> faces;
@@ -220,12 +247,14 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
     if (Status s = write_face_order(input, state, coding, faces); !s.ok()) return s;
   }
   const auto flags = static_cast<uint8_t>((options.reorder ? 0 : MeshHeader::kOrderKept) |
-                                          (keeps_faces ? MeshHeader::kFaceOrderKept : 0));
+                                          (keeps_faces ? MeshHeader::kFaceOrderKept : 0) |
+                                          (options.plain ? MeshHeader::kPlain : 0));
   const MeshHeader header = {
-      state.vertex_count, state.face_count, flags,       plan.encoding.middle.size(),
-      rest.size(),        order.size(),     faces.size()};
+      state.vertex_count, state.face_count, flags,        plan.encoding.middle.size(),
+      rest.size(),        positions.size(), order.size(), faces.size()};
   if (Status s = write_header(header, "mesh header", bytes); !s.ok()) return s;
-  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &order, &faces};
+  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &positions, &order,
+                                               &faces};
   for (const auto* part : parts) bytes.insert(bytes.end(), part->begin(), part->end());
   return {};
 }

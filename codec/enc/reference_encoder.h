@@ -14,6 +14,7 @@ namespace reeb {
 struct ReferenceOptions {
   bool reorder = false;     ///< drop the vertex order of the input
   bool face_order = false;  ///< keep the order and first corners of the faces; not with `reorder`
+  bool plain = false;       ///< as the fast profile has it
 };
 
 struct DracoPlan;

@@ -100,9 +100,8 @@ Status ShotEncoder::set_grid_bits(uint32_t bits) {
     std::swap(grid_bits_, spare_bits_);
   } else {
     SurfaceContext surface;
-    if (Status s = make_surface_context(shot_, plan_, allowed, {.reorder = reorder_}, surface);
-        !s.ok())
-      return s;
+    const ReferenceOptions options{.reorder = reorder_, .plain = profile_ == Profile::kFast};
+    if (Status s = make_surface_context(shot_, plan_, allowed, options, surface); !s.ok()) return s;
     spare_ = std::exchange(surface_, std::move(surface));
     spare_bits_ = std::exchange(grid_bits_, allowed);
   }

@@ -71,7 +71,7 @@ class ShotEncoder {
   };
   /// True where group i starts from what the one before has learned.
   bool continues(uint32_t i) const {
-    return profile_ != Profile::kThesis && i % (open_groups_ + 1) != 0;
+    return profile_ == Profile::kMain && i % (open_groups_ + 1) != 0;
   }
   void fit_motion();
   void correct(const Group& group, CodedGroup& coded) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/common/field.h"
+
 namespace reeb {
 
 namespace {
@@ -46,7 +48,15 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
   const std::vector<int32_t> grid = snap(first, out.header);
   Status status = encode_reference(plan, grid, options, out.bytes, out.mesh, out.input_of);
   if (!status.ok()) return status;
-  out.surface = build_surface_graph(out.points(), out.mesh.triangles);
+  if (options.plain) {
+    out.surface = std::move(out.mesh.surface);
+    link_rings(out.surface.graph);
+    out.weights =
+        reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
+                          out.points(), out.surface.order);
+  } else {
+    out.surface = build_surface_graph(out.points(), out.mesh.triangles);
+  }
   out.input.resize(out.mesh.vertex_count);
   out.row_of.resize(out.mesh.vertex_count);
   for (uint32_t row = 0; row < out.rows(); ++row) {

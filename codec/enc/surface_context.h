@@ -20,6 +20,7 @@ struct SurfaceContext {
   ReferenceMesh mesh;              ///< as decoded
   std::vector<uint32_t> input_of;  ///< vertex of `mesh` (coding numbering) -> vertex of the input
   SurfaceGraph surface;            ///< of the decoded mesh
+  std::vector<float> weights;      ///< fast profile: kMaxNeighbours a row
   std::vector<uint32_t> input;     ///< row of the surface graph -> vertex of the input
   std::vector<uint32_t> row_of;    ///< vertex of the input -> row
 

@@ -8,47 +8,18 @@
 #include "codec/common/coding_tools.h"
 #include "codec/enc/basis_refit.h"
 #include "codec/enc/field_encoder.h"
+#include "codec/enc/stop_rule.h"
 
 namespace reeb {
 
 namespace {
 
-constexpr double kCoefficientLambda = 0.10;  ///< bits against squared error, in q^2
-constexpr double kBasisLambda = 0.08;
 constexpr uint32_t kMostMotionComponents =
     96;                             ///< later ones carry no affine motion worth its bits
 constexpr double kLeastSent = 0.2;  ///< mean square of a component that is sent, in q^2, typically
 constexpr double kErrorWhereSent = 0.04;  ///< its squared error, in q^2
-constexpr uint32_t kPatience =
-    8;  ///< components without gain after which the search for their number ends
-constexpr double kMassExponent = 0.7;
 
-/// Keeps the number of components with the lowest cost seen.
-class StopRule {
- public:
-  explicit StopRule(uint32_t frames) : basis_weight_(6.0 * frames) {}
-
-  /// Adds a component: energy before, squared error after, bits spent (all in units of q). False:
-  /// stop.
-  bool add(double energy, double error, double bits) {
-    ++count_;
-    const double basis_bits = basis_weight_ * 0.5 * std::log2(1 + 6 * energy / basis_weight_);
-    cost_ += error + basis_weight_ / 12 - energy + kCoefficientLambda * (bits + basis_bits);
-    if (cost_ < best_cost_) {
-      best_cost_ = cost_;
-      best_count_ = count_;
-    }
-    return count_ - best_count_ < kPatience;
-  }
-  uint32_t best() const { return best_count_; }
-
- private:
-  double basis_weight_;  ///< about twice the 3F values of a basis vector, whose bits are estimated
-  double cost_ = 0;
-  double best_cost_ = 0;
-  uint32_t count_ = 0;
-  uint32_t best_count_ = 0;
-};
+}  // namespace
 
 double energy_of(const std::vector<float>& values) {
   double sum = 0;
@@ -56,7 +27,22 @@ double energy_of(const std::vector<float>& values) {
   return sum;
 }
 
-}  // namespace
+void subtract(const std::vector<float>& moved, std::vector<float>& target) {
+  for (size_t r = 0; r < target.size(); ++r) target[r] -= moved[r];
+}
+
+std::vector<float> TransformEncoder::component_targets(const SurfaceContext& surface, uint32_t k,
+                                                       double q) {
+  const float* coefficients = transform_.coefficients(k);
+  std::vector<float> out(surface.rows());
+  for (uint32_t r = 0; r < out.size(); ++r)
+    out[r] = static_cast<float>(static_cast<double>(coefficients[surface.input[r]]) / q);
+  return out;
+}
+
+uint32_t TransformEncoder::most_components() const {
+  return std::min(held_count_.value_or(transform_.size()), transform_.size());
+}
 
 TransformEncoder::TransformEncoder(GroupSignal signal, Profile profile, unsigned threads)
     : GroupEncoder(std::move(signal)),
@@ -70,24 +56,12 @@ CodedGroup TransformEncoder::encode(const SurfaceContext& surface, double q,
   CodedGroup out;
   out.q = static_cast<double>(static_cast<float>(q));  // as the header keeps it
   std::fill(std::begin(out.axis_step), std::end(out.axis_step), static_cast<float>(q));
-  GroupState& state = run.state;
-  if (!run.continues) {
-    state = start_closed_group(surface.surface, surface.points(), profile_, threads_);
-  }
-  // Components that are coded and then dropped leave no trace in what the next group continues.
-  std::unique_ptr<Field> copy;
-  if (run.continued && !held_count_) copy = std::make_unique<Field>(*state.coefficients);
-  Planes planes =
-      encode_coefficients(surface, motion, copy != nullptr ? *copy : *state.coefficients, out);
-  if (copy != nullptr) {
-    decode_coefficients(out.coefficients, out.component_count, *state.coefficients);
-  }
-  if (run.continued) state.coefficients->next_group();
+  Planes planes = encode_coefficients(surface, motion, run, out);
   if (motion != nullptr) {
     MotionModel model = motion->quantize(out.axis_step, out.component_count);
     encode_motion(surface, model, 0, out, planes);
   }
-  encode_basis(surface, planes, state.basis_contexts, out);
+  encode_basis(surface, planes, run.state.basis_contexts, out);
   return out;
 }
 
@@ -111,27 +85,37 @@ Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) 
 }
 
 GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext& surface,
-                                                           const MotionFit* motion, Field& field,
+                                                           const MotionFit* motion, GroupRun& run,
                                                            CodedGroup& out) {
+  GroupState& state = run.state;
+  if (!run.continues) {
+    state = start_closed_group(surface.surface, surface.points(), profile_, threads_);
+  }
+  // Components that are coded and then dropped leave no trace in what the next group continues.
+  std::unique_ptr<Field> copy;
+  if (run.continued && !held_count_) copy = std::make_unique<Field>(*state.coefficients);
+  Planes planes = encode_field(surface, motion, copy != nullptr ? *copy : *state.coefficients, out);
+  if (copy != nullptr)
+    decode_coefficients(out.coefficients, out.component_count, *state.coefficients);
+  if (run.continued) state.coefficients->next_group();
+  return planes;
+}
+
+GroupEncoder::Planes TransformEncoder::encode_field(const SurfaceContext& surface,
+                                                    const MotionFit* motion, Field& field,
+                                                    CodedGroup& out) {
   const PredictionGraph& graph = surface.surface.graph;
   FieldEncoder encoder(field, graph, thrift_ * kCoefficientLambda, kMassExponent);
-  StopRule stop(signal_.frames);
+  StopRule stop(signal_.frames, kCoefficientLambda);
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
   std::vector<size_t> ends{0};
-  std::vector<float> target(graph.size());
-  const uint32_t most = std::min(held_count_.value_or(transform_.size()), transform_.size());
+  const uint32_t most = most_components();
   bool more = true;
   for (uint32_t k = 0; k < most && more; ++k) {
-    const float* coefficients = transform_.coefficients(k);
-    for (uint32_t r = 0; r < target.size(); ++r) {
-      target[r] = static_cast<float>(static_cast<double>(coefficients[surface.input[r]]) / out.q);
-    }
+    std::vector<float> target = component_targets(surface, k, out.q);
     const double energy = energy_of(target);
-    if (motion != nullptr) {
-      const std::vector<float> moved = model.predict(k);
-      for (uint32_t r = 0; r < target.size(); ++r) target[r] -= moved[r];
-    }
+    if (motion != nullptr) subtract(model.predict(k), target);
     const double bits_before = encoder.recorder().bits();
     const double error = encoder.code_component(target.data());
     ends.push_back(encoder.recorder().size());
@@ -149,29 +133,34 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
   const BasisRefit refit(signal_, transform_.basis(), planes, surface.row_of, out.q);
   const Eigen::MatrixXd& basis =
       uses(coding_tool::kBasisRefit) ? refit.basis() : transform_.basis();
+  std::vector<std::vector<float>> targets(planes.size() + 1,
+                                          std::vector<float>(temporal_.order.size()));
+  const double mean_scale = std::sqrt(static_cast<double>(signal_.vertices())) / out.q;
+  for (size_t r = 0; r < temporal_.order.size(); ++r) {
+    const uint32_t at = temporal_.order[r];
+    targets[0][r] = static_cast<float>(
+        (signal_.mean[at] - static_cast<double>(surface.header.origin[at % 3])) * mean_scale);
+  }
+  for (uint32_t k = 0; k < planes.size(); ++k) {
+    const double norm = plane_norm(planes[k]);
+    for (size_t r = 0; r < temporal_.order.size(); ++r)
+      targets[k + 1][r] = static_cast<float>(basis(temporal_.order[r], k) * norm);
+  }
+  const Planes coded = code_basis(targets, contexts, out);
+  out.synthesis =
+      synthesize(signal_.vertices(), planes, coded, temporal_.order, out.q, surface.header.origin);
+  out.squared_error = refit.squared_error(out.synthesis);
+}
+
+GroupEncoder::Planes TransformEncoder::code_basis(const std::vector<std::vector<float>>& targets,
+                                                  MagnitudeModel& contexts, CodedGroup& out) {
   Field field(temporal_.graph, basis_field_options(), threads_);
   std::swap(field.model(), contexts);
   FieldEncoder encoder(field, temporal_.graph, thrift_ * kBasisLambda, 0);
-  std::vector<float> target(temporal_.order.size());
-  const double mean_scale = std::sqrt(static_cast<double>(signal_.vertices())) / out.q;
-  for (size_t r = 0; r < target.size(); ++r) {
-    const uint32_t at = temporal_.order[r];
-    target[r] = static_cast<float>(
-        (signal_.mean[at] - static_cast<double>(surface.header.origin[at % 3])) * mean_scale);
-  }
-  encoder.code_component(target.data());
-  for (uint32_t k = 0; k < planes.size(); ++k) {
-    const double norm = plane_norm(planes[k]);
-    for (size_t r = 0; r < target.size(); ++r) {
-      target[r] = static_cast<float>(basis(temporal_.order[r], k) * norm);
-    }
-    encoder.code_component(target.data());
-  }
+  for (const std::vector<float>& target : targets) encoder.code_component(target.data());
   out.basis = encoder.recorder().encode(encoder.recorder().size());
-  out.synthesis =
-      synthesize(signal_.vertices(), planes, field, temporal_.order, out.q, surface.header.origin);
   std::swap(field.model(), contexts);
-  out.squared_error = refit.squared_error(out.synthesis);
+  return field.take_planes();
 }
 
 }  // namespace reeb

@@ -29,6 +29,9 @@ int64_t leap(uint32_t k, uint32_t row) {
 BuiltMesh mesh_of(const Shape& shape, uint32_t bits = 10) {
   return build_mesh(shape.connectivity, on_grid(shape, bits));
 }
+BuiltMesh plain_mesh_of(const Shape& shape, uint32_t bits = 10) {
+  return build_mesh(shape.connectivity, on_grid(shape, bits), {.plain = true});
+}
 
 BuiltGroup plain_group(uint32_t frames, uint32_t components) {
   BuiltGroup g;
@@ -50,8 +53,8 @@ BuiltGroup thesis_group(uint32_t frames) {
   return g;
 }
 
-Bytes with_profile(BuiltGroup g, const BuiltMesh& mesh, Profile profile) {
-  g.header.profile = profile;
+Bytes build_fast(BuiltGroup g, const BuiltMesh& mesh) {
+  g.header.profile = Profile::kFast;
   return build_file(mesh, g);
 }
 
@@ -137,20 +140,20 @@ void add_components(Maker& m) {
   m.add("all_components", "As many components as coordinates of the group.",
         build_file(mesh, plain_group(4, 12)));
   m.add("fast_all_components", "The same in the fast profile.",
-        with_profile(plain_group(4, 12), mesh, Profile::kFast));
+        build_fast(plain_group(4, 12), plain_mesh_of(torus(9, 8))));
   BuiltGroup zero = plain_group(3, 3);
   zero.coefficients = none;
   m.add("zero_planes", "Components without a coefficient: norms of 0.", build_file(mesh, zero));
   FileBuilder mixed({.total_frames = 6});
   mixed.reference({.origin = {1, 2, 3}}, mesh);
-  const Profile profiles[] = {Profile::kThesis, Profile::kMain, Profile::kFast};
+  const Profile profiles[] = {Profile::kThesis, Profile::kMain, Profile::kThesis};
   for (uint32_t i = 0; i < 3; ++i) {
     BuiltGroup g = profiles[i] == Profile::kThesis ? thesis_group(2) : plain_group(2, 3);
     g.header.profile = profiles[i];
     g.header.first_frame = 2 * i;
     mixed.group(mesh, g);
   }
-  m.add("profiles_mixed", "A group of each profile in one shot.", mixed.finish());
+  m.add("profiles_mixed", "Groups of the main and the thesis profile in one shot.", mixed.finish());
 }
 
 /// As many groups in a row as may continue each other, then one that continues none.
@@ -175,11 +178,12 @@ void add_open_groups(Maker& m) {
 
 void add_residuals(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(9, 8));
+  const BuiltMesh plain = plain_mesh_of(torus(9, 8));
   BuiltGroup g = plain_group(4, 5);
   g.header.quantization_step = 1e-9f;
   g.coefficients = leap;
   m.add("escapes", "Escapes of every length in the coefficients.", build_file(mesh, g));
-  m.add("fast_escapes", "The same in the fast profile.", with_profile(g, mesh, Profile::kFast));
+  m.add("fast_escapes", "The same in the fast profile.", build_fast(g, plain));
   BuiltGroup b = plain_group(30, 3);
   b.header.quantization_step = 1e-9f;
   b.basis = leap;
@@ -197,6 +201,7 @@ void add_residuals(Maker& m) {
 
 void add_motion(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(10, 7));
+  const BuiltMesh plain = plain_mesh_of(torus(10, 7));
   BuiltGroup g = plain_group(3, 4);
   g.header.region_count = 1024;
   g.binding = [](uint32_t row) {
@@ -213,8 +218,7 @@ void add_motion(Maker& m) {
   m.add("motion_extremes",
         "1024 regions, most of them empty; all weights, both regions the same, largest transforms.",
         build_file(mesh, g));
-  m.add("fast_motion_extremes", "The same in the fast profile.",
-        with_profile(g, mesh, Profile::kFast));
+  m.add("fast_motion_extremes", "The same in the fast profile.", build_fast(g, plain));
 
   BuiltGroup t = thesis_group(4);
   t.header.region_count = 2;
@@ -297,11 +301,17 @@ void add_meshes(Maker& m) {
   std::vector<int32_t> corner(size_t{ring.connectivity.vertex_count} * 3);
   m.add("one_place", "All vertices at one grid point.",
         build_file(build_mesh(ring.connectivity, corner), plain_group(2, 2)));
+  m.add("plain_one_place", "The same in a plain mesh.",
+        build_fast(plain_group(2, 2), build_mesh(ring.connectivity, corner, {.plain = true})));
   std::vector<int32_t> jumps;
   for (size_t i = 0; i < corner.size(); ++i)
     jumps.push_back(i % 4 == 0 ? 65535 : static_cast<int32_t>(i * 40503 % 65536) * (i % 3 != 0));
   m.add("jumping_positions", "Positions all over the grid, its corners included.",
         build_file(build_mesh(ring.connectivity, jumps), plain_group(2, 2)));
+  m.add("plain_jumping_positions", "The same in a plain mesh.",
+        build_fast(plain_group(2, 2), build_mesh(ring.connectivity, jumps, {.plain = true})));
+  m.add("plain_hub", "A vertex with 300 triangles in a plain mesh: its list is full.",
+        build_fast(plain_group(3, 9), plain_mesh_of(hub(300))));
   const Shape loose = points_only(40);
   std::vector<int32_t> far;
   for (size_t i = 0; i < 120; ++i) far.push_back(i % 7 == 0 ? 65535 : static_cast<int32_t>(i % 5));
@@ -315,7 +325,7 @@ void add_levels(Maker& m) {
   BuiltGroup g = plain_group(1, 0);
   g.basis = none;
   m.add("level1_vertices", "The most vertices and faces of level 1.",
-        build_file(build_mesh(large.connectivity, still, true), g));
+        build_file(build_mesh(large.connectivity, still, {.reorder = true}), g));
   const BuiltMesh mesh = mesh_of(tetrahedron());
   m.add("level1_frames", "The most frames and components of a group of level 1.",
         build_file(mesh, plain_group(512, 128)));

@@ -172,8 +172,6 @@ void add_groups(Maker& m) {
         open_at(4, 63));
   m.add("open_runs", "Runs of a group and one that continues it, with regions.", torus(14, 9), 12,
         with(open_at(3, 1), Profile::kMain, 3, 3), fold);
-  m.add("fast_open_groups", "Groups of the fast profile that continue each other.", torus(10, 8), 9,
-        with(open_at(3, 63), Profile::kFast, 0, 3));
   m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,
         at(0.05), rest);
   m.add("long", "160 frames of few vertices that go their own ways: more than 64 components.",
@@ -188,6 +186,7 @@ void add_groups(Maker& m) {
 }
 
 void add_profiles(Maker& m) {
+  const EncodeOptions fast = with(at(0.2), Profile::kFast);
   m.add("main_one_region", "Motion of one region.", torus(14, 10), 8,
         with(at(0.1), Profile::kMain, 1), fold);
   m.add("main_regions", "Motion of six regions, blended.", torus(20, 12), 10,
@@ -201,6 +200,19 @@ void add_profiles(Maker& m) {
         6, bounded(0.01), shake);
   m.add("bounded_groups", "The same in groups, with vertices that are far off.",
         with_isolated(grid(16, 12), 6), 9, with(bounded(0.01), Profile::kFast, 2, 4), fold);
+  m.add("fast_polygons", "Faces of many sizes, some not by Draco, in the fast profile.",
+        mixed_polygons(), 5, fast);
+  m.add("fast_fins", "Split points and loose vertices in the fast profile.",
+        with_isolated(fins(7), 5), 4, fast);
+  m.add("fast_points", "No faces in the fast profile.", points_only(70), 4, fast);
+  m.add("fast_order", "Shuffled vertices in the fast profile.", shuffled(torus(16, 11)), 4, fast);
+  EncodeOptions dropped = fast;
+  dropped.reorder = true;
+  m.add("fast_order_dropped", "The same mesh in coding order.", shuffled(torus(16, 11)), 4,
+        dropped);
+  m.add("fast_fine", "Many components and large residuals in the fast profile.", torus(10, 8), 12,
+        with(at(0.002), Profile::kFast), scatter);
+  m.add("fast_vertex", "One vertex in the fast profile.", single_vertex(), 3, fast);
   m.add("thesis", "Thesis profile.", torus(12, 8), 5, with(at(0.3), Profile::kThesis));
   m.add("thesis_regions",
         "Thesis profile with regions: transforms follow those of the frame before.", torus(14, 9),

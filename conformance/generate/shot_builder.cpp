@@ -9,11 +9,11 @@
 #include "bitstream/chunk.h"
 #include "bitstream/syntax.h"
 #include "codec/common/correction_field.h"
+#include "codec/common/lane_field.h"
 #include "codec/common/motion_syntax.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/dec/reference_decoder.h"
-#include "codec/enc/reference_encoder.h"
 #include "entropy/range_coder.h"
 
 namespace reeb::conformance {
@@ -28,8 +28,14 @@ void require(const Status& status) {
 BuiltMesh finish_mesh(Bytes bytes) {
   ReferenceMesh mesh;
   require(decode_reference(bytes, {}, mesh));
-  SurfaceGraph surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
-  return {std::move(bytes), std::move(mesh.grid), std::move(surface)};
+  if (mesh.surface.graph.size() == 0) {
+    SurfaceGraph surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
+    return {std::move(bytes), std::move(mesh.grid), std::move(surface), {}};
+  }
+  std::vector<float> weights =
+      reference_weights(mesh.surface.graph, surface_field_options(Profile::kFast).weights,
+                        GridPoints(mesh.grid), mesh.surface.order);
+  return {std::move(bytes), std::move(mesh.grid), std::move(mesh.surface), std::move(weights)};
 }
 
 void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
@@ -44,7 +50,34 @@ void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
   }
 }
 
+Bytes code_lanes(const PredictionGraph& graph, std::span<const float> weights, uint32_t count,
+                 const Residuals& residuals) {
+  LaneField field(graph, weights, {});
+  RansEncoder coder;
+  LaneField::Planes planes;
+  for (uint32_t k = 0; k < count; k += kRansLanes) {
+    const uint32_t lanes = std::min(kRansLanes, count - k);
+    field.begin_block();
+    for (uint32_t row = 0; row < field.rows(); ++row) {
+      const LaneGuess guess = field.guess(row);
+      int32_t n[kRansLanes] = {};
+      for (uint32_t l = 0; l < lanes; ++l) {
+        constexpr int64_t kMost = kRansMaxMagnitude;
+        n[l] = static_cast<int32_t>(std::clamp(residuals(k + l, row), -kMost, kMost));
+        coder.put(l, guess.cls[l], n[l]);
+      }
+      field.note(row, guess, n);
+    }
+    field.end_block(lanes, planes);
+  }
+  return coder.finish();
+}
+
 Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
+  if (group.header.profile == Profile::kFast) {
+    return code_lanes(mesh.surface.graph, mesh.weights, group.header.component_count,
+                      group.coefficients);
+  }
   Field field(mesh.surface.graph, surface_field_options(group.header.profile), 1);
   field.learn_reference(GridPoints(mesh.grid), mesh.surface.order);
   BinaryEncoder coder;
@@ -54,6 +87,10 @@ Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
 
 Bytes code_basis(const BuiltGroup& group) {
   const TemporalGraph temporal = build_temporal_graph(group.header.frame_count);
+  if (group.header.profile == Profile::kFast) {
+    return code_lanes(temporal.graph, prior_weights(temporal.graph),
+                      group.header.component_count + 1, group.basis);
+  }
   Field field(temporal.graph, basis_field_options(), 1);
   BinaryEncoder coder;
   code_components(field, coder, group.header.component_count + 1, group.basis);
@@ -89,11 +126,11 @@ Bytes code_corrections(const BuiltMesh& mesh, BuiltGroup& group) {
 }  // namespace
 
 BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
-                     bool reorder) {
+                     const ReferenceOptions& options) {
   Bytes bytes;
   ReferenceMesh decoded;
   std::vector<uint32_t> input;
-  require(encode_reference(connectivity, grid, {reorder}, bytes, decoded, input));
+  require(encode_reference(connectivity, grid, options, bytes, decoded, input));
   return finish_mesh(std::move(bytes));
 }
 
@@ -104,7 +141,7 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   state.grid.assign(grid.begin(), grid.end());
   state.listed = {connectivity.face_sizes, connectivity.corners};
   BinaryEncoder coder;
-  require(code_rest(coder, state, std::numeric_limits<uint64_t>::max()));
+  require(code_rest(coder, state, std::numeric_limits<uint64_t>::max(), false));
   const Bytes rest = coder.finish();
   const MeshHeader header = {state.vertex_count, state.face_count, 0, 0, rest.size(), 0};
   Bytes bytes;

@@ -12,6 +12,7 @@
 #include "codec/common/motion_model.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/sequence.h"
+#include "codec/enc/reference_encoder.h"
 #include "conformance/generate/stream.h"
 
 namespace reeb::conformance {
@@ -24,13 +25,14 @@ struct BuiltMesh {
   Bytes bytes;
   std::vector<int32_t> grid;  ///< [coding vertex][xyz]
   SurfaceGraph surface;
+  std::vector<float> weights;  ///< of a plain mesh, for the fast profile; else empty
 
   uint32_t rows() const { return surface.graph.size(); }
 };
 
 /// Grid positions in input order, [vertex][xyz].
 BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
-                     bool reorder = false);
+                     const ReferenceOptions& options = {});
 /// The same with every face listed, none left to Draco.
 BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid);
 

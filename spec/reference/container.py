@@ -10,7 +10,7 @@ UINT32 = (1 << 32) - 1
 MAIN, FAST, THESIS, LOSSLESS = 0, 1, 2, 3
 CONTINUES, CORRECTED, QUICK = 1, 2, 4  # bits of a group's flags
 OPEN_ENDED = 1  # bit of the sequence header's flags
-ORDER_KEPT, FACE_ORDER_KEPT = 1, 2  # bits of a mesh's flags
+ORDER_KEPT, FACE_ORDER_KEPT, PLAIN = 1, 2, 4  # bits of a mesh's flags
 
 # README.md section 5: what this decoder allows.
 MAX_FRAMES = 1 << 20
@@ -364,15 +364,20 @@ class MeshHeader:
     flags: int
     draco_bytes: int
     rest_bytes: int
+    position_bytes: int
     order_bytes: int
     face_bytes: int
 
 
 def read_mesh_header(reader):
-    vertex_count, face_count = reader.uv("vertex_count", 1, 1 << 25), reader.uv("face_count", 0, UINT32)
-    flags = reader.flags("flags", ORDER_KEPT | FACE_ORDER_KEPT)
-    sections = [reader.uv("section length", 0, UINT32) for _ in range(4 if flags & FACE_ORDER_KEPT else 3)]
-    return MeshHeader(vertex_count, face_count, flags, *(sections + [0])[:4])
+    vertex_count = reader.uv("vertex_count", 1, 1 << 25)
+    face_count = reader.uv("face_count", 0, UINT32)
+    flags = reader.flags("flags", ORDER_KEPT | FACE_ORDER_KEPT | PLAIN)
+    draco_bytes, rest_bytes = (reader.uv("section length", 0, UINT32) for _ in range(2))
+    position_bytes = reader.uv("position_bytes", 0, UINT32) if flags & PLAIN else 0
+    order_bytes = reader.uv("order_bytes", 0, UINT32)
+    face_bytes = reader.uv("face_bytes", 0, UINT32) if flags & FACE_ORDER_KEPT else 0
+    return MeshHeader(vertex_count, face_count, flags, draco_bytes, rest_bytes, position_bytes, order_bytes, face_bytes)
 
 
 def with_end_as_fault(function, *arguments):

@@ -3,7 +3,7 @@ import math
 from dataclasses import dataclass
 
 from .arithmetic import f32, floor_log2, log2_5, product32, sum32
-from .container import FAST, MAIN, THESIS
+from .container import MAIN, THESIS
 from .entropy import EVEN, Mixer, RangeDecoder, adaptive_bits
 from .errors import require
 from .surface import STEPS
@@ -21,7 +21,6 @@ class FieldOptions:
 
 COEFFICIENTS = {
     MAIN: FieldOptions(COEFFICIENT_WEIGHTS, True, True, 2.2, 0.2),
-    FAST: FieldOptions(COEFFICIENT_WEIGHTS, True, False),
     THESIS: FieldOptions(COEFFICIENT_WEIGHTS, False, False),
 }
 BASIS = FieldOptions(BASIS_WEIGHTS, True, True, 0.5, 0.05)

@@ -1,4 +1,5 @@
 """README.md section 3: decoding of shots, groups and frames."""
+from . import fast
 from .arithmetic import sum32
 from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS
 from .corrections import Corrections
@@ -19,7 +20,11 @@ class Shot:
         self.reference = reference
         mesh = decode_mesh(reference.mesh, draco_command)
         self.faces = mesh.faces
-        self.rows, order = build_surface_graph(mesh.grid, mesh.triangles)
+        self.plain = mesh.plain_order is not None
+        if self.plain:
+            self.rows, order = fast.build_fast_graph(mesh.grid, mesh.plain_order)
+        else:
+            self.rows, order = build_surface_graph(mesh.grid, mesh.triangles)
         self.positions = [mesh.grid[v] for v in order]
         self.output = [mesh.output[v] for v in order]
 
@@ -43,6 +48,7 @@ class DecodedGroup:
 
     def __init__(self, group, shot, before=None):
         check_group(group)
+        require((group.profile == FAST) == shot.plain, "plain meshes are those of the fast profile")
         self.coefficients = self.basis = None
         if group.profile == LOSSLESS:
             self.frames = LosslessGroup(group, shot.rows, shot.positions, shot.reference)
@@ -54,9 +60,8 @@ class DecodedGroup:
             self.frames = ThesisSynthesis(planes, group.axis_step, origin, corrections)
             return
         time_rows, time_order = build_temporal_graph(group.frame_count)
-        self.basis = decode_field(group.basis, time_rows, 1 + group.component_count, BASIS,
-                                  before=before and before.basis)
-        self.frames = Synthesis(len(shot.rows), planes, self.basis.planes, time_order, group.quantization_step, origin,
+        basis_planes = self.decode_basis(group, time_rows, before)
+        self.frames = Synthesis(len(shot.rows), planes, basis_planes, time_order, group.quantization_step, origin,
                                 corrections)
 
     def decode_planes(self, group, shot, before):
@@ -64,12 +69,23 @@ class DecodedGroup:
         if group.region_count > 0:
             motion = Motion(group.motion, shot.rows, group.region_count, group.component_count,
                             group.profile == THESIS, shot.positions)
-        self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
-                                         COEFFICIENTS[group.profile], shot.positions, before and before.coefficients)
-        planes = self.coefficients.planes
+        planes = self.decode_coefficients(group, shot, before)
         if motion is None:
             return planes
         return [[sum32(x, motion.motion(r, k)) for r, x in enumerate(plane)] for k, plane in enumerate(planes)]
+
+    def decode_coefficients(self, group, shot, before):
+        if group.profile == FAST:
+            return fast.decode_coefficients(group.coefficients, shot.rows, group.component_count, shot.positions)
+        self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
+                                         COEFFICIENTS[group.profile], shot.positions, before and before.coefficients)
+        return self.coefficients.planes
+
+    def decode_basis(self, group, rows, before):
+        if group.profile == FAST:
+            return fast.decode_basis(group.basis, rows, 1 + group.component_count)
+        self.basis = decode_field(group.basis, rows, 1 + group.component_count, BASIS, before=before and before.basis)
+        return self.basis.planes
 
     def position(self, row, t):
         return self.frames.position(row, t)
@@ -104,7 +120,7 @@ class Decoder:
         group, before = self.file.groups[number], self.file.groups[number - 1]
         there = number > 0 and before.first_frame + before.frame_count == group.first_frame
         require(there, "the group that a group continues is missing")
-        require(before.shot == group.shot and before.profile == group.profile and group.profile in (MAIN, FAST),
+        require(before.shot == group.shot and before.profile == group.profile == MAIN,
                 "a group continues one of another kind")
         row = self.file.groups[max(0, number - 63):number + 1]
         require(len(row) < 64 or not all(g.flags & CONTINUES for g in row), "too many groups continue each other")

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 from .bytes import Reader
 from .connectivity import NONE, after, find_twins, join_triangles
-from .container import FACE_ORDER_KEPT, ORDER_KEPT, read_mesh_header
+from .container import FACE_ORDER_KEPT, ORDER_KEPT, PLAIN, read_mesh_header
 from .entropy import EVEN, AdaptiveBit, ExpGolomb, RangeDecoder, SignedInteger
 from .errors import Corrupt, Truncated, require
+from .fast import Order, decode_plain_order, decode_positions
 from .guesses import Guess, GuessMixture
 from .order import arrange_faces, decode_order
 from .points import GRID_SIZE, PointDecoder
@@ -23,6 +24,7 @@ class Mesh:
     triangles: list  # three coding vertices each, flat; none with two equal corners
     output: list  # output index of each coding vertex
     faces: list  # output indices of the corners of each face
+    plain_order: Order = None  # rows of a plain mesh
 
 
 def decode_draco(section, most, command):
@@ -63,7 +65,11 @@ class Rest:
         self.header = header
         self.triangles = triangles
         self.twins = find_twins(triangles)
-        self.point_position = PointDecoder(self.decoder, point_count, triangles).decode_all()
+        self.plain = header.flags & PLAIN != 0
+        if self.plain:
+            self.point_position = [(0, 0, 0)] * point_count
+        else:
+            self.point_position = PointDecoder(self.decoder, point_count, triangles).decode_all()
         self.grid = []
         self.vertex_of_point = []
         self.decode_split_points()
@@ -71,7 +77,8 @@ class Rest:
         self.decode_polygons()
         self.polygons = join_triangles(triangles, self.twins, self.inside)
         require(self.polygons is not None, "polygons overlap themselves")
-        self.decode_loose_vertices()
+        if not self.plain:
+            self.decode_loose_vertices()
         self.listed = []
         self.decode_listed_faces()
         self.decoder.check()
@@ -164,8 +171,8 @@ def decode_mesh(data, draco_command):
     reader = Reader(data)
     try:
         header = read_mesh_header(reader)
-        lengths = header.draco_bytes, header.rest_bytes, header.order_bytes, header.face_bytes
-        draco, rest, order, arrangement = (reader.take(n) for n in lengths)
+        lengths = (header.draco_bytes, header.rest_bytes, header.position_bytes, header.order_bytes, header.face_bytes)
+        draco, rest, position, order, arrangement = (reader.take(n) for n in lengths)
     except Truncated:
         raise Corrupt("the mesh's sections do not fit")
     require(reader.remaining() == 0, "sections do not fill the mesh")
@@ -178,13 +185,21 @@ def decode_mesh(data, draco_command):
     for face in parts.listed:
         coding_triangles += [[face[0], face[i], face[i + 1]] for i in range(1, len(face) - 1)]
     flat = [v for t in coding_triangles if len(set(t)) == 3 for v in t]
-    if header.flags & ORDER_KEPT:
-        output = decode_order(order, header.vertex_count, flat)
-    else:
+    grid, plain_order = parts.grid, None
+    if header.flags & PLAIN:
+        plain_order = Order(header.vertex_count, flat)
+        grid = [None] * header.vertex_count
+        for v, p in zip(plain_order.order, decode_positions(position, plain_order)):
+            grid[v] = p
+    if not header.flags & ORDER_KEPT:
         require(not order, "an order where none is kept")
         output = list(range(header.vertex_count))
+    elif header.flags & PLAIN:
+        output = decode_plain_order(order, header.vertex_count)
+    else:
+        output = decode_order(order, header.vertex_count, flat)
     faces = [[output[vertex[p]] for p in polygon] for polygon in parts.polygons]
     faces += [[output[v] for v in face] for face in parts.listed]
     if header.flags & FACE_ORDER_KEPT:
         faces = arrange_faces(arrangement, header.vertex_count, faces)
-    return Mesh(parts.grid, flat, output, faces)
+    return Mesh(grid, flat, output, faces, plain_order)

@@ -34,7 +34,20 @@ void check_round_trip(const Header& h) {
 TEST_CASE("headers survive and their truncations fail", "[syntax]") {
   check_round_trip(SequenceHeader{400, 2, 29.97, -3.5, 0});
   check_round_trip(ReferenceHeader{1, 7, {1.5f, -2.25f, 1e-20f}, 0.125f, 0});
-  check_round_trip(MeshHeader{3030, 5664, MeshHeader::kOrderKept, 1, 300, 70000});
+  check_round_trip(MeshHeader{.vertex_count = 3030,
+                              .face_count = 5664,
+                              .flags = MeshHeader::kOrderKept,
+                              .draco_bytes = 1,
+                              .rest_bytes = 300,
+                              .order_bytes = 70000});
+  check_round_trip(MeshHeader{.vertex_count = 3030,
+                              .face_count = 5664,
+                              .flags = MeshHeader::kPlain | MeshHeader::kFaceOrderKept,
+                              .draco_bytes = 1,
+                              .rest_bytes = 300,
+                              .position_bytes = 5,
+                              .order_bytes = 0,
+                              .face_bytes = 7});
   GroupHeader group;
   group.first_frame = 64;
   group.frame_count = 65536;

@@ -85,12 +85,12 @@ void check_triangles(const ReferenceMesh& decoded) {
   }
 }
 
-void check_round_trip(const Mesh& m, bool reorder) {
+void check_round_trip(const Mesh& m, bool reorder, bool plain) {
   Bytes bytes;
   ReferenceMesh from_encoder, decoded;
   std::vector<uint32_t> input_index;
   const Status encoded =
-      encode_reference(m.connectivity, m.grid, {reorder}, bytes, from_encoder, input_index);
+      encode_reference(m.connectivity, m.grid, {reorder, plain}, bytes, from_encoder, input_index);
   INFO(encoded.message());
   REQUIRE(encoded.ok());
   REQUIRE(decode_reference(bytes, {}, decoded).ok());
@@ -119,8 +119,10 @@ void check_round_trip(const Mesh& m, bool reorder) {
 }
 
 void check_both(const Mesh& m) {
-  check_round_trip(m, false);
-  check_round_trip(m, true);
+  for (const bool plain : {false, true}) {
+    check_round_trip(m, false, plain);
+    check_round_trip(m, true, plain);
+  }
 }
 
 // A torus of n by n quadrilaterals, or of triangles.

@@ -81,22 +81,20 @@ TEST_CASE("the norm of a plane is Euclidean", "[synthesis]") {
 TEST_CASE("decoded fields are scaled by the step and the norms of the planes", "[synthesis]") {
   // Nine vertices, so that the mean trajectory counts a third of its coded value.
   const TemporalGraph temporal = build_temporal_graph(2);
-  Field basis_field(temporal.graph, basis_field_options(), 1);
   std::vector<std::vector<float>> planes = {{3, 0, 4, 0, 0, 0, 0, 0, 0},
                                             std::vector<float>(9, 0.0f)};
+  std::vector<std::vector<float>> basis(3);
   for (int k = 0; k < 3; ++k) {
-    basis_field.code_component([&](uint32_t row, float, uint32_t, MagnitudeModel::Bins&) {
-      return static_cast<int32_t>(7 * k + 2 * row) - 5;
-    });
+    for (int row = 0; row < 6; ++row) basis[k].push_back(static_cast<float>(7 * k + 2 * row - 5));
   }
   const float origin[3] = {10, 20, 30};
   constexpr double kQ = 0.5;
-  const GroupSynthesis s = synthesize(9, planes, basis_field, temporal.order, kQ, origin);
+  const GroupSynthesis s = synthesize(9, planes, basis, temporal.order, kQ, origin);
   for (size_t r = 0; r < 6; ++r) {
     const uint32_t at = temporal.order[r];
-    const double coded_mean = static_cast<double>(basis_field.plane(0)[r]);
+    const double coded_mean = static_cast<double>(basis[0][r]);
     CHECK(s.mean(at) == Approx(static_cast<double>(origin[at % 3]) + coded_mean * kQ / 3));
-    const double coded = static_cast<double>(basis_field.plane(1)[r]);
+    const double coded = static_cast<double>(basis[1][r]);
     CHECK(static_cast<double>(s.basis(at)[0]) == Approx(coded * kQ / 5));
     CHECK(s.basis(at)[1] == 0.0f);  // of a plane of zeros
   }

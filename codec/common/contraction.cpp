@@ -1,0 +1,182 @@
+#include "codec/common/contraction.h"
+
+#include <algorithm>
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kBaseSize = 64;      ///< stop at this many vertices
+constexpr uint32_t kMaxValence = 9;     ///< of a removed vertex
+constexpr uint32_t kMinProgress = 200;  ///< stop when a level removes fewer than one in this many
+constexpr uint32_t kBaseNeighbours = 4;
+
+/// The neighbours of a vertex. One that has more than there is room for stays to the end.
+struct Around {
+  uint32_t size = 0;
+  bool full = false;
+  uint32_t vertex[kMaxNeighbours];
+
+  uint32_t find(uint32_t v) const {
+    uint32_t i = 0;
+    while (i < size && vertex[i] != v) ++i;
+    return i;
+  }
+  bool has(uint32_t v) const { return find(v) < size; }
+  void add(uint32_t v) {
+    if (has(v)) return;
+    if (size == kMaxNeighbours) {
+      full = true;
+    } else {
+      vertex[size++] = v;
+    }
+  }
+  void erase(uint32_t i) { vertex[i] = vertex[--size]; }
+};
+
+class Contraction {
+ public:
+  Contraction(uint32_t vertex_count, std::span<const uint32_t> triangles)
+      : around_(vertex_count), locked_(vertex_count, 0), met_(vertex_count, 0) {
+    for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
+      for (size_t j = 0; j < 3; ++j) {
+        around_[triangles[i + j]].add(triangles[i + (j + 1) % 3]);
+        around_[triangles[i + j]].add(triangles[i + (j + 2) % 3]);
+      }
+    }
+  }
+
+  SurfaceGraph run() {
+    std::vector<uint32_t> isolated;
+    for (uint32_t v = 0; v < around_.size(); ++v)
+      (around_[v].size == 0 ? isolated : alive_).push_back(v);
+    rows_.resize(around_.size());
+    while (alive_.size() > kBaseSize) {
+      const size_t before = alive_.size();
+      run_level();
+      if (before - alive_.size() < std::max<size_t>(1, alive_.size() / kMinProgress)) break;
+    }
+    return collect(isolated);
+  }
+
+ private:
+  void run_level() {
+    ++level_;
+    std::erase_if(alive_, [&](uint32_t v) {
+      const Around& ring = around_[v];
+      if (locked_[v] == level_ || ring.full || ring.size == 0 || ring.size > kMaxValence)
+        return false;
+      const uint32_t target = choose_target(ring);
+      if (target == kNone) return false;
+      note(v);
+      for (uint32_t i = 0; i < ring.size; ++i) locked_[ring.vertex[i]] = level_;
+      contract(v, target);
+      removed_.push_back(v);
+      return true;
+    });
+  }
+
+  /// The neighbour with the fewest neighbours, the first of those, where the vertex may go.
+  uint32_t choose_target(const Around& ring) const {
+    uint32_t best = kNone;
+    uint32_t least = kMaxNeighbours + 1 - ring.size;
+    for (uint32_t i = 0; i < ring.size; ++i) {
+      const Around& a = around_[ring.vertex[i]];
+      if (a.full || a.size >= least) continue;
+      best = ring.vertex[i];
+      least = a.size;
+    }
+    return best;
+  }
+
+  /// Keeps what surrounds v: its ring, then the neighbours of those, first the ones that two or
+  /// more of them share.
+  void note(uint32_t v) {
+    const Around& ring = around_[v];
+    PredictionGraph::Row& row = rows_[v];
+    std::copy_n(ring.vertex, ring.size, row.neighbour.begin());
+    row.ring = row.count = static_cast<uint8_t>(ring.size);
+    mark_ += 2;  // met once: mark_; met again, or not wanted: mark_ + 1
+    met_[v] = mark_ + 1;
+    for (uint32_t i = 0; i < ring.size; ++i) met_[ring.vertex[i]] = mark_ + 1;
+    once_.clear();
+    for (uint32_t i = 0; i < ring.size; ++i) {
+      const Around& a = around_[ring.vertex[i]];
+      for (uint32_t j = 0; j < a.size; ++j) meet(a.vertex[j], row);
+    }
+    for (const uint32_t u : once_) {
+      if (row.count == kMaxNeighbours) break;
+      if (met_[u] == mark_) row.neighbour[row.count++] = u;
+    }
+  }
+
+  void meet(uint32_t u, PredictionGraph::Row& row) {
+    if (met_[u] < mark_) {
+      met_[u] = mark_;
+      once_.push_back(u);
+    } else if (met_[u] == mark_) {
+      met_[u] = mark_ + 1;
+      if (row.count < kMaxNeighbours) row.neighbour[row.count++] = u;
+    }
+  }
+
+  void contract(uint32_t v, uint32_t target) {
+    Around& ring = around_[v];
+    Around& merged = around_[target];
+    for (uint32_t i = 0; i < ring.size; ++i) {
+      Around& a = around_[ring.vertex[i]];
+      const uint32_t at = a.find(v);
+      if (ring.vertex[i] == target || a.has(target)) {
+        if (at < a.size) a.erase(at);
+      } else if (at < a.size) {
+        a.vertex[at] = target;
+      }
+      if (ring.vertex[i] != target) merged.add(ring.vertex[i]);
+    }
+    ring.size = 0;
+  }
+
+  /// Rows: what is left, what was removed in reverse, what has no neighbours.
+  SurfaceGraph collect(const std::vector<uint32_t>& isolated) {
+    SurfaceGraph out;
+    out.order = alive_;
+    out.order.insert(out.order.end(), removed_.rbegin(), removed_.rend());
+    out.order.insert(out.order.end(), isolated.begin(), isolated.end());
+    std::vector<uint32_t> rank(out.order.size());
+    for (uint32_t r = 0; r < rank.size(); ++r) rank[out.order[r]] = r;
+    out.graph.rows.resize(rank.size());
+    out.graph.step_level.resize(rank.size(), 0);
+    for (uint32_t r = 0; r < rank.size(); ++r) {
+      PredictionGraph::Row& row = out.graph.rows[r];
+      row = rows_[out.order[r]];
+      for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = rank[row.neighbour[i]];
+      if (row.count == 0) follow(r, row);
+      std::fill(row.neighbour.begin() + row.count, row.neighbour.end(), r);
+    }
+    return out;
+  }
+
+  /// A row that nothing surrounds goes by the rows before it.
+  static void follow(uint32_t r, PredictionGraph::Row& row) {
+    row.count = static_cast<uint8_t>(std::min(r, kBaseNeighbours));
+    row.ring = std::min<uint8_t>(row.count, 1);
+    for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = r - 1 - i;
+  }
+
+  static constexpr uint32_t kNone = UINT32_MAX;
+  std::vector<Around> around_;
+  std::vector<PredictionGraph::Row> rows_;  ///< by vertex, neighbours as vertices
+  std::vector<uint32_t> alive_, removed_, once_;
+  std::vector<uint32_t> locked_;  ///< level at which the vertex must stay
+  std::vector<uint32_t> met_;
+  uint32_t level_ = 0;
+  uint32_t mark_ = 0;
+};
+
+}  // namespace
+
+SurfaceGraph contract_mesh(uint32_t vertex_count, std::span<const uint32_t> triangles) {
+  return Contraction(vertex_count, triangles).run();
+}
+
+}  // namespace reeb

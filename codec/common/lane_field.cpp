@@ -1,0 +1,81 @@
+#include "codec/common/lane_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reeb {
+
+LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weights,
+                     const LaneFieldOptions& options)
+    : graph_(graph),
+      steps_(graph.size(), 1.0f),
+      values_(size_t{graph.size()} * kRansLanes),
+      magnitudes_(values_.size()),
+      history_(graph.size(), 0) {
+  neighbours_.reserve(size_t{graph.size()} * kMaxNeighbours);
+  for (uint32_t r = 0; r < graph.size(); ++r) {
+    const PredictionGraph::Row& row = graph.rows[r];
+    neighbours_.insert(neighbours_.end(), row.neighbour.begin(), row.neighbour.end());
+    counts_.push_back(row.count);
+    rings_.push_back(row.ring);
+    if (!options.whole) steps_[r] = static_cast<float>(kStepTable[graph.step_level[r]]) / 65536.0f;
+  }
+  block_.neighbours = neighbours_.data();
+  block_.counts = counts_.data();
+  block_.rings = rings_.data();
+  block_.row_count = graph.size();
+  block_.weights = weights.data();
+  block_.steps = steps_.data();
+  block_.values = values_.data();
+  block_.magnitudes = magnitudes_.data();
+  block_.whole = options.whole;
+}
+
+void LaneField::begin_block() {
+  std::fill(values_.begin(), values_.end(), 0.0f);
+  std::fill(magnitudes_.begin(), magnitudes_.end(), uint16_t{0});
+  std::fill(std::begin(block_.running), std::end(block_.running), 0u);
+}
+
+void LaneField::end_block(uint32_t lanes, Planes& planes) {
+  for (uint32_t r = 0; r < rows(); ++r) {
+    uint32_t sum = 0;
+    for (uint32_t l = 0; l < kRansLanes; ++l) sum += magnitudes_[r * kRansLanes + l];
+    const uint32_t mean = 2 * sum;  // in 1/16
+    history_[r] = block_.history == nullptr ? mean : (history_[r] + 3 * mean) / 4;
+  }
+  block_.history = history_.data();
+  for (uint32_t l = 0; l < lanes; ++l) {
+    std::vector<float>& plane = planes.emplace_back(rows());
+    for (uint32_t r = 0; r < rows(); ++r) plane[r] = values_[size_t{r} * kRansLanes + l];
+  }
+}
+
+bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, LaneField& field,
+                       LaneField::Planes& planes, const StopToken& stop) {
+  RansDecoder decoder;
+  if (!decoder.open(section)) return false;
+  for (uint32_t k = 0; k < components; k += kRansLanes) {
+    const uint32_t lanes = std::min(kRansLanes, components - k);
+    field.begin_block();
+    field.decode_rows(decoder, lanes);
+    field.end_block(lanes, planes);
+    if (decoder.overrun() || stop.requested()) return false;
+    for (uint32_t l = 0; l < lanes; ++l) {
+      const std::vector<float>& plane = planes[k + l];
+      if (!std::all_of(plane.begin(), plane.end(), [](float x) { return std::isfinite(x); }))
+        return false;
+    }
+  }
+  return true;
+}
+
+std::vector<float> prior_weights(const PredictionGraph& graph) {
+  std::vector<float> out(size_t{graph.size()} * kMaxNeighbours);
+  for (uint32_t r = 0; r < graph.size(); ++r)
+    std::copy(graph.rows[r].prior.begin(), graph.rows[r].prior.end(),
+              &out[size_t{r} * kMaxNeighbours]);
+  return out;
+}
+
+}  // namespace reeb

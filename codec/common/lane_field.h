@@ -1,0 +1,70 @@
+// Coding of a field in the fast profile: eight components at a time, row after row, weights fixed
+// before the first. A row's components do not depend on each other, so they are predicted in one
+// vector and decoded by as many interleaved coders. Encoder and decoder run this same code.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/common/kernels.h"
+#include "codec/common/prediction_graph.h"
+#include "codec/common/stop.h"
+#include "entropy/rans.h"
+
+namespace reeb {
+
+struct LaneFieldOptions {
+  bool whole = false;  ///< values are integers: predictions are rounded to the nearest, and all
+                       ///< steps are 1
+};
+
+class LaneField {
+ public:
+  using Planes = std::vector<std::vector<float>>;
+
+  /// `weights`: kMaxNeighbours a row, 0 beyond its neighbours. Graph and weights must outlive the
+  /// field.
+  LaneField(const PredictionGraph& graph, std::span<const float> weights,
+            const LaneFieldOptions& options);
+
+  /// Starts the next kRansLanes components.
+  void begin_block();
+  /// What the row's neighbours tell of the row.
+  LaneGuess guess(uint32_t row) const { return kernels_.guess_lanes(block_, row); }
+  /// Takes the row's residuals, the guess being that of `guess`.
+  void note(uint32_t row, const LaneGuess& guess, const int32_t* residuals) {
+    kernels_.note_lanes(block_, row, guess, residuals);
+  }
+  /// All rows of a block at once, `lanes` components of them.
+  void decode_rows(RansDecoder& decoder, uint32_t lanes) {
+    kernels_.decode_lanes(block_, decoder, lanes);
+  }
+  /// Ends the block and appends its first `lanes` components.
+  void end_block(uint32_t lanes, Planes& planes);
+
+  /// In units of the quantization step.
+  float step(uint32_t row) const { return steps_[row]; }
+  uint32_t rows() const { return graph_.size(); }
+
+ private:
+  const PredictionGraph& graph_;
+  Kernels kernels_ = fastest_kernels();
+  std::vector<uint32_t> neighbours_;
+  std::vector<uint8_t> counts_, rings_;
+  std::vector<float> steps_;
+  std::vector<float> values_;
+  std::vector<uint16_t> magnitudes_;
+  std::vector<uint32_t> history_;
+  LaneBlock block_;
+};
+
+/// Decodes a section of `components` planes; false where it is damaged, or `stop` is requested.
+bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, LaneField& field,
+                       LaneField::Planes& planes, const StopToken& stop = {});
+
+/// The priors of a graph as weights.
+std::vector<float> prior_weights(const PredictionGraph& graph);
+
+}  // namespace reeb

@@ -1,0 +1,179 @@
+#include "entropy/rans.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "entropy/integer_coder.h"
+
+namespace reeb {
+
+namespace {
+
+constexpr uint32_t kWhole = 1u << kRansBits;
+constexpr uint32_t kLowest = 1u << 16;  // states are kept at or above
+
+/// Syntax of the frequencies, for both directions: classes one after another, each the number of
+/// its symbols, then all frequencies but that of the first symbol, which is what they leave.
+class TableSyntax {
+ public:
+  template <class Coder>
+  bool code(Coder& coder, RansTables& tables) {
+    for (RansFrequencies& f : tables) {
+      const auto last = std::find_if(f.rbegin(), f.rend(), [](uint16_t x) { return x > 0; });
+      const uint32_t count = count_.code(coder, static_cast<uint32_t>(f.rend() - last));
+      if (count > kRansSymbols) return false;
+      uint32_t sum = 0;
+      for (uint32_t s = 1; s < count; ++s) {
+        const uint32_t frequency = frequency_[std::min(s, kModels - 1)].code(coder, f[s]);
+        if (frequency > kWhole - sum) return false;
+        f[s] = static_cast<uint16_t>(frequency);
+        sum += frequency;
+      }
+      if (count > 0) f[0] = static_cast<uint16_t>(kWhole - sum);
+    }
+    return true;
+  }
+
+ private:
+  static constexpr uint32_t kModels = 24;
+  ExpGolombModel count_;
+  std::array<ExpGolombModel, kModels> frequency_;
+};
+
+void append_u32(std::vector<uint8_t>& out, uint32_t x) {
+  for (int i = 0; i < 4; ++i) out.push_back(static_cast<uint8_t>(x >> (8 * i)));
+}
+
+uint32_t read_u32(const uint8_t* at) {
+  return at[0] | uint32_t{at[1]} << 8 | uint32_t{at[2]} << 16 | uint32_t{at[3]} << 24;
+}
+
+/// Bits, lowest first.
+class BitWriter {
+ public:
+  void put(uint32_t value, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i, ++size_) {
+      if (size_ % 8 == 0) bytes_.push_back(0);
+      bytes_.back() = static_cast<uint8_t>(bytes_.back() | (value >> i & 1) << (size_ % 8));
+    }
+  }
+  const std::vector<uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<uint8_t> bytes_;
+  uint64_t size_ = 0;
+};
+
+}  // namespace
+
+RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& counts) {
+  const uint64_t all = std::accumulate(counts.begin(), counts.end(), uint64_t{0});
+  RansFrequencies out{};
+  if (all == 0) return out;
+  uint32_t sum = 0;
+  for (uint32_t s = 0; s < kRansSymbols; ++s) {
+    if (counts[s] == 0) continue;
+    out[s] = static_cast<uint16_t>(std::max<uint64_t>(1, (counts[s] * uint64_t{kWhole}) / all));
+    sum += out[s];
+  }
+  for (; sum > kWhole; --sum) --*std::max_element(out.begin(), out.end());
+  uint16_t& most = *std::max_element(out.begin(), out.end());
+  most = static_cast<uint16_t>(most + kWhole - sum);
+  return out;
+}
+
+RansTables RansEncoder::tables() const {
+  std::vector<std::array<uint32_t, kRansSymbols>> counts(kRansClasses);
+  for (const Item& item : items_) ++counts[item.cls][rans_symbol(item.n)];
+  RansTables out;
+  for (const auto& c : counts) out.push_back(rans_frequencies(c));
+  return out;
+}
+
+std::vector<uint8_t> RansEncoder::finish() const {
+  RansTables tables = this->tables();
+  BinaryEncoder table_coder;
+  TableSyntax().code(table_coder, tables);
+  std::vector<std::array<uint32_t, kRansSymbols>> starts(tables.size());
+  for (size_t c = 0; c < tables.size(); ++c)
+    std::exclusive_scan(tables[c].begin(), tables[c].end(), starts[c].begin(), 0u);
+  BitWriter raw;
+  for (const Item& item : items_) {
+    const auto magnitude = static_cast<uint32_t>(item.n < 0 ? -item.n : item.n);
+    raw.put(magnitude, rans_bucket::extra_bits(rans_bucket::of(magnitude)));
+  }
+  std::array<uint32_t, kRansLanes> state;
+  state.fill(kLowest);
+  std::vector<uint16_t> words;  // last first
+  for (size_t i = items_.size(); i-- > 0;) {
+    const Item& item = items_[i];
+    uint32_t& x = state[item.lane];
+    const uint32_t symbol = rans_symbol(item.n);
+    const uint32_t frequency = tables[item.cls][symbol];
+    if (x >> (32 - kRansBits) >= frequency) {
+      words.push_back(static_cast<uint16_t>(x));
+      x >>= 16;
+    }
+    x = (x / frequency << kRansBits) + x % frequency + starts[item.cls][symbol];
+  }
+  const std::vector<uint8_t> table_bytes = table_coder.finish();
+  std::vector<uint8_t> out;
+  append_u32(out, static_cast<uint32_t>(table_bytes.size()));
+  append_u32(out, static_cast<uint32_t>(raw.bytes().size()));
+  out.insert(out.end(), table_bytes.begin(), table_bytes.end());
+  out.insert(out.end(), raw.bytes().begin(), raw.bytes().end());
+  for (const uint32_t x : state) append_u32(out, x);
+  for (size_t i = words.size(); i-- > 0;) {
+    out.push_back(static_cast<uint8_t>(words[i]));
+    out.push_back(static_cast<uint8_t>(words[i] >> 8));
+  }
+  return out;
+}
+
+bool RansDecoder::open(std::span<const uint8_t> section) {
+  constexpr size_t kFront = 8;
+  constexpr size_t kStates = 4 * kRansLanes;
+  if (section.size() < kFront) return false;
+  const uint64_t table_bytes = read_u32(section.data());
+  const uint64_t raw_bytes = read_u32(section.data() + 4);
+  const uint64_t fixed = kFront + table_bytes + raw_bytes + kStates;
+  if (fixed > section.size() || (section.size() - fixed) % 2 != 0) return false;
+  BinaryDecoder table_coder(section.subspan(kFront, table_bytes));
+  RansTables tables(kRansClasses);
+  if (!TableSyntax().code(table_coder, tables) || table_coder.overrun()) return false;
+  slots_.assign(size_t{kRansClasses} << kRansBits, kWhole);  // of a class not there: always 0
+  for (size_t c = 0; c < tables.size(); ++c) {
+    uint32_t* slot = &slots_[c << kRansBits];
+    for (uint32_t s = 0; s < kRansSymbols; ++s) {
+      for (uint32_t i = 0; i < tables[c][s]; ++i) *slot++ = s << 24 | i << 12 | tables[c][s];
+    }
+  }
+  raw_ = section.subspan(kFront + table_bytes, raw_bytes);
+  bit_at_ = 0;
+  const uint8_t* at = section.data() + kFront + table_bytes + raw_bytes;
+  for (uint32_t& x : state_) {
+    x = read_u32(at);
+    at += 4;
+  }
+  end_ = (section.size() - fixed) / 2;
+  words_.assign(end_ + kRansLanes, 0);
+  for (size_t i = 0; i < end_; ++i, at += 2) words_[i] = static_cast<uint16_t>(at[0] | at[1] << 8);
+  slot_ = slots_.data();
+  word_ = words_.data();
+  at_ = 0;
+  overrun_ = false;
+  return true;
+}
+
+int32_t RansDecoder::large(uint32_t symbol) {
+  const uint32_t b = rans_symbol_bucket(symbol);
+  uint32_t low = 0;
+  for (uint32_t i = 0; i < rans_bucket::extra_bits(b); ++i, ++bit_at_) {
+    const uint64_t byte = bit_at_ / 8;
+    if (byte < raw_.size()) low |= (uint32_t{raw_[byte]} >> (bit_at_ % 8) & 1) << i;
+  }
+  const auto magnitude = static_cast<int32_t>(rans_bucket::begin(b) + low);
+  return symbol % 2 == 1 ? -magnitude : magnitude;
+}
+
+}  // namespace reeb

@@ -1,0 +1,223 @@
+"""fast.md sections 2 to 4: the order of contraction, lane fields, plain meshes."""
+import math
+
+from .arithmetic import f32, floor_log2, product32, sum32
+from .errors import require
+from .lanes import LaneSection
+from .surface import STEPS, Distances, Row, link, make_row, set_step_levels
+from .weights import COEFFICIENT_WEIGHTS, RowWeights
+
+LIST = 16
+
+
+class Contraction:
+    """Section 2."""
+
+    def __init__(self, vertex_count, triangles):
+        self.N = [[] for _ in range(vertex_count)]
+        self.full = [False] * vertex_count
+        for i in range(0, len(triangles), 3):
+            a, b, c = triangles[i:i + 3]
+            for v, others in ((a, (b, c)), (b, (c, a)), (c, (a, b))):
+                for u in others:
+                    self.add(v, u)
+        self.isolated = [v for v in range(vertex_count) if not self.N[v]]
+        self.alive = [v for v in range(vertex_count) if self.N[v]]
+        self.removed = []  # (vertex, ring, far)
+        while len(self.alive) > 64:
+            removed = self.level()
+            if removed < max(1, len(self.alive) // 200):
+                break
+
+    def add(self, v, u):
+        if u in self.N[v]:
+            return
+        if len(self.N[v]) < LIST:
+            self.N[v].append(u)
+        else:
+            self.full[v] = True
+
+    def level(self):
+        locked = set()
+        gone = set()
+        for v in self.alive:
+            if v in locked or self.full[v] or not 0 < len(self.N[v]) <= 9:
+                continue
+            t = self.target(v)
+            if t is None:
+                continue
+            ring = list(self.N[v])
+            self.removed.append((v, ring, self.far(v)))
+            locked |= set(ring)
+            self.contract(v, t)
+            gone.add(v)
+        self.alive = [v for v in self.alive if v not in gone]
+        return len(gone)
+
+    def target(self, v):
+        N = self.N
+        allowed = [t for t in N[v] if not self.full[t] and len(N[t]) <= LIST - len(N[v])]
+        return min(allowed, key=lambda t: len(N[t])) if allowed else None
+
+    def contract(self, v, t):
+        N = self.N
+        for w in N[v]:
+            if v in N[w]:
+                at = N[w].index(v)
+                if w == t or t in N[w]:
+                    N[w][at] = N[w][-1]
+                    N[w].pop()
+                else:
+                    N[w][at] = t
+            if w != t:
+                self.add(t, w)
+        N[v] = []
+
+    def far(self, v):
+        once, again = [], []
+        near = set(self.N[v]) | {v}
+        for u in self.N[v]:
+            for w in self.N[u]:
+                if w in near:
+                    continue
+                if w not in once:
+                    once.append(w)
+                elif w not in again:
+                    again.append(w)
+        return (again + [w for w in once if w not in again])[:LIST - len(self.N[v])]
+
+
+class Order:
+    """Rows before their positions are known: the vertex, the neighbours and the ring of each."""
+
+    def __init__(self, vertex_count, triangles):
+        found = Contraction(vertex_count, triangles)
+        self.order = found.alive + [v for v, _, _ in reversed(found.removed)] + found.isolated
+        rank = {v: r for r, v in enumerate(self.order)}
+        ring = {v: near for v, near, _ in found.removed}
+        far = {v: beyond for v, _, beyond in found.removed}
+        self.neighbours = []
+        self.ring = []
+        for r, v in enumerate(self.order):
+            if v in ring:
+                self.neighbours.append([rank[u] for u in ring[v] + far[v]])
+                self.ring.append(len(ring[v]))
+            else:
+                self.neighbours.append([r - i for i in range(1, 5) if r - i >= 0])
+                self.ring.append(min(r, 1))
+
+
+def position_weights(count, ring):
+    """Section 4."""
+    beyond = count - ring
+    a = 0.125 if ring > 2 and beyond >= 4 else 0.0
+    return [f32((1 + a) / ring)] * ring + [f32(-a / beyond) for _ in range(beyond)]
+
+
+class LaneField:
+    """Section 3. weights: of every row; steps: of every row, or None where values are whole."""
+
+    def __init__(self, data, rows, planes, weights, steps):
+        self.section = LaneSection(data)
+        self.rows = rows
+        self.weights = weights
+        self.steps = steps
+        self.history = [0] * len(rows)
+        self.planes = [[0.0] * len(rows) for _ in range(planes)]
+        for block in range((planes + 7) // 8):
+            self.decode_block(block, min(8, planes - 8 * block))
+        self.section.check()
+
+    def decode_block(self, block, lanes):
+        self.magnitude = [[0] * lanes for _ in self.rows]
+        self.running = [0] * lanes
+        for r in range(len(self.rows)):
+            for lane in range(lanes):
+                n, _ = self.section.decode(lane, self.classify(block, r, lane))
+                plane = self.planes[8 * block + lane]
+                plane[r] = self.value(r, plane, n)
+                require(math.isfinite(plane[r]), "a value is beyond binary32")
+                magnitude = min(abs(n), 1023)
+                self.magnitude[r][lane] = magnitude
+                self.running[lane] = self.running[lane] + 32 * magnitude - (self.running[lane] >> 3)
+        for r, magnitudes in enumerate(self.magnitude):
+            m = 2 * sum(magnitudes)
+            self.history[r] = m if block == 0 else (self.history[r] + 3 * m) // 4
+
+    def value(self, r, plane, n):
+        s = [0.0] * 4
+        for i, k in enumerate(self.rows[r].neighbours):
+            s[i % 4] = sum32(s[i % 4], product32(self.weights[r][i], plane[k]))
+        p = sum32(sum32(s[0], s[1]), sum32(s[2], s[3]))
+        if self.steps is None:
+            p = sum32(sum32(p, 12582912.0), -12582912.0)
+            return sum32(p, f32(n))
+        return sum32(p, product32(f32(n), f32(self.steps[r] / 65536)))
+
+    def classify(self, block, r, lane):
+        row = self.rows[r]
+        mean = self.running[lane] >> 4
+        near = mean
+        if row.ring > 0:
+            total = sum(self.magnitude[k][lane] for k in row.neighbours[:row.ring])
+            near = (total * (65536 // row.ring)) >> 12
+        if block == 0:
+            expected = (10 * near + 6 * mean) >> 4
+        else:
+            expected = (3 * near + 3 * mean + 10 * self.history[r]) >> 4
+        e = floor_log2(expected + 1)
+        below = (expected + 1) >> (e - 1) & 1 if e > 0 else 0
+        return min(19, 2 * e + below)
+
+
+def decode_positions(data, order):
+    """Section 4: grid position of every row."""
+    rows = [Row(n, ring, [], []) for n, ring in zip(order.neighbours, order.ring)]
+    weights = [position_weights(len(n), ring) if n else [] for n, ring in zip(order.neighbours, order.ring)]
+    planes = LaneField(data, rows, 3, weights, None).planes
+    require(all(0 <= x <= 65535 for plane in planes for x in plane), "a position is off the grid")
+    return [tuple(int(plane[r]) for plane in planes) for r in range(len(rows))]
+
+
+def decode_plain_order(data, vertex_count):
+    """Section 4: the output index of every coding vertex."""
+    section = LaneSection(data)
+    output = []
+    met = set()
+    before = -1
+    which = 0
+    for v in range(vertex_count):
+        n, symbol = section.decode(v % 8, which)
+        before = before + 1 + n
+        require(0 <= before < vertex_count and before not in met, "an index that cannot be")
+        met.add(before)
+        output.append(before)
+        which = min(19, symbol)
+    section.check()
+    return output
+
+
+def build_fast_graph(grid, order):
+    """(rows, order) as surface.build_surface_graph gives them."""
+    distances = Distances(grid)
+    rank = {v: r for r, v in enumerate(order.order)}
+    rows = []
+    for v, neighbours, ring in zip(order.order, order.neighbours, order.ring):
+        vertices = [order.order[k] for k in neighbours]
+        rows.append(make_row(v, vertices[:ring], vertices[ring:], rank, distances))
+    set_step_levels(link(rows))
+    return rows, order.order
+
+
+def decode_coefficients(data, rows, components, positions):
+    weights = []
+    for r in range(len(rows)):
+        row = RowWeights(rows, r, COEFFICIENT_WEIGHTS)
+        row.observe_reference(positions)
+        row.solve()
+        weights.append(row.w)
+    return LaneField(data, rows, components, weights, [STEPS[row.step_level] for row in rows]).planes
+
+
+def decode_basis(data, rows, components):
+    return LaneField(data, rows, components, [row.prior for row in rows], [65536] * len(rows)).planes

@@ -1,0 +1,123 @@
+#include "codec/common/lane_field.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "codec/common/contraction.h"
+#include "codec/common/plain_mesh.h"
+#include "codec/enc/lane_field_encoder.h"
+#include "tests/codec/shapes.h"
+
+using namespace reeb;
+using namespace reeb::test;
+
+namespace {
+
+SurfaceGraph torus_graph() {
+  const Shape shape = torus(30, 20);
+  SurfaceGraph surface =
+      contract_mesh(shape.connectivity.vertex_count, triangles_of(shape.connectivity));
+  weigh_rows(GridPoints(on_grid(shape, 10)), surface);
+  return surface;
+}
+
+/// Smooth planes, the later the smaller.
+LaneField::Planes smooth_planes(const SurfaceGraph& surface, uint32_t count) {
+  LaneField::Planes out(count);
+  for (uint32_t k = 0; k < count; ++k) {
+    for (const uint32_t v : surface.order)
+      out[k].push_back(static_cast<float>(300.0 / (k + 1) * std::sin(0.01 * (k + 1) * v)));
+  }
+  return out;
+}
+
+struct Coded {
+  std::vector<uint8_t> section;
+  LaneField::Planes planes;
+};
+
+Coded encode(const PredictionGraph& graph, const std::vector<float>& weights,
+             const LaneField::Planes& targets, const LaneFieldOptions& options, double lambda) {
+  LaneField field(graph, weights, options);
+  const SymbolCosts costs = expected_costs();
+  LaneFieldEncoder encoder(field, graph, lambda, 0, costs);
+  for (size_t k = 0; k < targets.size(); k += kRansLanes) {
+    const size_t end = std::min(targets.size(), k + kRansLanes);
+    encoder.code_block({targets.begin() + static_cast<std::ptrdiff_t>(k),
+                        targets.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
+  return {encoder.section(static_cast<uint32_t>(targets.size())).finish(), encoder.planes()};
+}
+
+}  // namespace
+
+TEST_CASE("a lane field decodes to what its encoder had", "[lane_field]") {
+  const SurfaceGraph surface = torus_graph();
+  const std::vector<float> weights = prior_weights(surface.graph);
+  for (const uint32_t count : {1u, 7u, 8u, 9u, 20u}) {
+    const LaneField::Planes targets = smooth_planes(surface, count);
+    const Coded coded = encode(surface.graph, weights, targets, {}, 0.1);
+    LaneField field(surface.graph, weights, {});
+    LaneField::Planes planes;
+    REQUIRE(decode_lane_field(coded.section, count, field, planes));
+    CHECK(planes == coded.planes);
+    double worst = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      for (size_t r = 0; r < planes[k].size(); ++r)
+        worst = std::max(worst, std::abs(static_cast<double>(planes[k][r] - targets[k][r])));
+    }
+    CHECK(worst < 2);  // a step, or a little more where bits were saved
+  }
+}
+
+TEST_CASE("a whole lane field gives integers back", "[lane_field]") {
+  const Shape shape = torus(30, 20);
+  const SurfaceGraph surface = torus_graph();
+  const std::vector<int32_t> grid = on_grid(shape, 16);
+  LaneField::Planes targets(3);
+  for (size_t a = 0; a < 3; ++a) {
+    for (const uint32_t v : surface.order)
+      targets[a].push_back(static_cast<float>(grid[size_t{v} * 3 + a]));
+  }
+  const std::vector<float> weights = position_weights(surface.graph);
+  const Coded coded = encode(surface.graph, weights, targets, {.whole = true}, 0);
+  LaneField field(surface.graph, weights, {.whole = true});
+  LaneField::Planes planes;
+  REQUIRE(decode_lane_field(coded.section, 3, field, planes));
+  CHECK(planes == targets);
+}
+
+TEST_CASE("classes follow the magnitudes around", "[lane_field]") {
+  const SurfaceGraph surface = torus_graph();
+  const std::vector<float> weights = prior_weights(surface.graph);
+  LaneField field(surface.graph, weights, {});
+  field.begin_block();
+  int32_t n[kRansLanes] = {0, 1, -1, 900, -5000, 2, 0, 7};
+  const LaneGuess first = field.guess(0);
+  for (uint32_t l = 0; l < kRansLanes; ++l) {
+    CHECK(first.prediction[l] == 0.0f);
+    CHECK(first.cls[l] == 0);
+  }
+  field.note(0, first, n);
+  // Row 1 goes by row 0: its prediction is row 0's value; the expected magnitude in 1/16 is
+  // (10 * 16 m + 6 * (32 m >> 4)) >> 4, m being row 0's magnitude, capped.
+  const LaneGuess second = field.guess(1);
+  for (uint32_t l = 0; l < kRansLanes; ++l) {
+    CHECK(second.prediction[l] == static_cast<float>(n[l]) * field.step(0));
+    const uint32_t m = static_cast<uint32_t>(std::min(1023, std::abs(n[l])));
+    const uint32_t expected = (10 * 16 * m + 6 * (32 * m >> 4)) >> 4;
+    const auto cls = static_cast<uint32_t>(2 * std::floor(std::log2(expected + 1.0)));
+    CHECK(second.cls[l] - std::min(kRansClasses - 1, cls) <= 1);
+  }
+}
+
+TEST_CASE("cut lane fields are refused", "[lane_field]") {
+  const SurfaceGraph surface = torus_graph();
+  const std::vector<float> weights = prior_weights(surface.graph);
+  const Coded coded = encode(surface.graph, weights, smooth_planes(surface, 9), {}, 0.1);
+  for (size_t size = 0; size < coded.section.size(); size += 1 + size / 20) {
+    LaneField field(surface.graph, weights, {});
+    LaneField::Planes planes;
+    CHECK_FALSE(decode_lane_field(std::span(coded.section).first(size), 9, field, planes));
+  }
+}

@@ -1,0 +1,136 @@
+#include "entropy/rans.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace reeb;
+
+namespace {
+
+struct Item {
+  uint32_t lane, cls;
+  int32_t n;
+};
+
+std::vector<Item> skewed(size_t count, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<Item> items;
+  for (size_t i = 0; i < count; ++i) {
+    const auto cls = static_cast<uint32_t>(random() % kRansClasses);
+    const auto width = static_cast<uint32_t>(random() % (1 + cls));
+    const auto size = static_cast<int32_t>(random() % (1u << width));
+    items.push_back({static_cast<uint32_t>(i % kRansLanes), cls, random() % 2 == 0 ? size : -size});
+  }
+  return items;
+}
+
+std::vector<uint8_t> encode(const std::vector<Item>& items) {
+  RansEncoder encoder;
+  for (const Item& i : items) encoder.put(i.lane, i.cls, i.n);
+  return encoder.finish();
+}
+
+void check_decodes(const std::vector<uint8_t>& bytes, const std::vector<Item>& items) {
+  RansDecoder decoder;
+  REQUIRE(decoder.open(bytes));
+  for (const Item& i : items) REQUIRE(decoder.code(i.lane, i.cls, 0) == i.n);
+  CHECK(!decoder.overrun());
+}
+
+}  // namespace
+
+TEST_CASE("buckets of rANS symbols tile the magnitudes", "[rans]") {
+  uint32_t next = 0;
+  for (uint32_t b = 0; b <= (kRansSymbols - 1) / 2; ++b) {
+    REQUIRE(rans_bucket::begin(b) == next);
+    REQUIRE(rans_bucket::of(next) == b);
+    next += 1u << rans_bucket::extra_bits(b);
+    REQUIRE(rans_bucket::of(next - 1) == b);
+  }
+  CHECK(next == kRansMaxMagnitude + 1);
+  CHECK(rans_symbol(0) == 0);
+  CHECK(rans_symbol(-1) == 1);
+  CHECK(rans_symbol(1) == 2);
+  CHECK(rans_symbol(-9) == 15);
+  CHECK(rans_symbol(static_cast<int32_t>(kRansMaxMagnitude)) == kRansSymbols - 1);
+}
+
+TEST_CASE("rANS gives back what was put", "[rans]") {
+  check_decodes(encode({}), {});
+  for (const size_t count : {1, 7, 8, 9, 5000}) {
+    const std::vector<Item> items = skewed(count, static_cast<uint32_t>(count));
+    check_decodes(encode(items), items);
+  }
+}
+
+TEST_CASE("rANS carries the extremes", "[rans]") {
+  constexpr auto kMost = static_cast<int32_t>(kRansMaxMagnitude);
+  std::vector<Item> items;
+  for (const int32_t n : {0, kMost, -kMost, 8, -8, 7, -7, 1 << 29}) items.push_back({0, 19, n});
+  check_decodes(encode(items), items);
+  const std::vector<Item> alike(1000, Item{3, 0, -2});  // one symbol: no bits at all
+  check_decodes(encode(alike), alike);
+  CHECK(encode(alike).size() < 60);
+}
+
+TEST_CASE("frequencies sum to the whole and leave nothing out", "[rans]") {
+  std::array<uint32_t, kRansSymbols> counts{};
+  SECTION("many rare symbols beside equal ones") {
+    for (uint32_t s = 0; s < kRansSymbols; ++s) counts[s] = s < 62 ? 1000000 : 1;
+  }
+  SECTION("one symbol") { counts[77] = 5; }
+  SECTION("all alike") { counts.fill(3); }
+  uint32_t sum = 0;
+  const RansFrequencies frequencies = rans_frequencies(counts);
+  for (uint32_t s = 0; s < kRansSymbols; ++s) {
+    CHECK((frequencies[s] > 0) == (counts[s] > 0));
+    sum += frequencies[s];
+  }
+  CHECK(sum == 1u << kRansBits);
+}
+
+TEST_CASE("rANS spends what the entropy asks for", "[rans]") {
+  // 0 with probability 0.9, else +-1: 0.569 bits an integer.
+  std::mt19937 random(1);
+  std::vector<Item> items;
+  for (uint32_t i = 0; i < 80000; ++i) {
+    const auto x = static_cast<uint32_t>(random() % 20);
+    items.push_back({i % 8, 2, x == 0 ? 1 : x == 1 ? -1 : 0});
+  }
+  const double bits = 8 * static_cast<double>(encode(items).size()) / 80000;
+  CHECK(bits > 0.56);
+  CHECK(bits < 0.59);
+}
+
+TEST_CASE("cut rANS sections are refused or run dry", "[rans]") {
+  const std::vector<Item> items = skewed(3000, 5);
+  const std::vector<uint8_t> bytes = encode(items);
+  for (size_t size = 0; size < bytes.size(); size += size < 100 ? 1 : 37) {
+    const std::vector<uint8_t> cut(bytes.begin(),
+                                   bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    RansDecoder decoder;
+    if (!decoder.open(cut)) continue;
+    for (const Item& i : items) decoder.code(i.lane, i.cls, 0);
+    CHECK(decoder.overrun());
+  }
+}
+
+TEST_CASE("damaged rANS sections never read out of bounds", "[rans]") {
+  const std::vector<Item> items = skewed(500, 9);
+  const std::vector<uint8_t> bytes = encode(items);
+  std::mt19937 random(2);
+  size_t opened = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::vector<uint8_t> damaged = bytes;
+    for (int i = 0; i < 3; ++i)
+      damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << random() % 8);
+    RansDecoder decoder;
+    if (!decoder.open(damaged)) continue;
+    ++opened;
+    for (const Item& i : items) {
+      const int64_t n = decoder.code(i.lane, i.cls, 0);
+      REQUIRE(std::abs(n) <= int64_t{kRansMaxMagnitude});
+    }
+  }
+  CHECK(opened > 0);
+}
