@@ -1,5 +1,6 @@
-/* player FILE [LOOPS]: the loop of a player, without its window. Opens a .reeb file so that only
- * the group at hand is in memory, plays it forwards, then once backwards, and tells how it went. */
+/* player FILE [LOOPS [MIB]]: the loop of a player, without its window. Opens a .reeb file so that
+ * only the groups at hand are in memory, plays it forwards, then once backwards, and tells how it
+ * went. MIB: what the decoder may take. */
 #include <reeb.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,11 +55,11 @@ static void report(reeb_decoder* decoder) {
       stats.longest_stall_frame + 1, (double)stats.peak_memory / 1e6);
 }
 
-static reeb_result run(FILE* file, uint64_t size, long loops) {
+static reeb_result run(FILE* file, uint64_t size, long loops, uint64_t max_memory) {
   const reeb_reader reader = {size, read_at, file};
   reeb_options options = {.struct_size = sizeof options};
   options.prefetch = 1;
-  options.limits.max_memory = UINT64_C(300) << 20;
+  options.limits.max_memory = max_memory;
   options.log = print_log;
   reeb_decoder* decoder = NULL;
   reeb_result result = reeb_open_reader(&reader, &options, &decoder);
@@ -78,7 +79,7 @@ static reeb_result run(FILE* file, uint64_t size, long loops) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    fputs("usage: player FILE [LOOPS]\n", stderr);
+    fputs("usage: player FILE [LOOPS [MIB]]\n", stderr);
     return 2;
   }
   FILE* file = fopen(argv[1], "rb");
@@ -86,7 +87,9 @@ int main(int argc, char** argv) {
     perror(argv[1]);
     return 1;
   }
-  const reeb_result result = run(file, (uint64_t)ftell(file), argc > 2 ? atol(argv[2]) : 1);
+  const long loops = argc > 2 ? atol(argv[2]) : 1;
+  const uint64_t mebibytes = argc > 3 ? (uint64_t)atol(argv[3]) : 256;
+  const reeb_result result = run(file, (uint64_t)ftell(file), loops, mebibytes << 20);
   fclose(file);
   if (result != REEB_OK) fprintf(stderr, "player: %s: %s\n", argv[1], reeb_result_string(result));
   return result == REEB_OK ? 0 : 1;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "codec/common/batches.h"
 #include "codec/common/displacement_kernels.h"
 #include "codec/common/parallel.h"
 
 namespace reeb {
 
 struct DisplacementPredictor::Batches {
-  std::vector<DisplacementBatch> items;
+  BatchVector<DisplacementBatch> items;
   DisplacementKernels kernels = fastest_displacement_kernels();
 };
 

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <new>
 
+#include "codec/common/batches.h"
 #include "codec/common/kernels.h"
 #include "codec/common/parallel.h"
 
 namespace reeb {
 
 struct WeightEstimator::Batches {
-  std::vector<WeightBatch> items;
+  BatchVector<WeightBatch> items;
   Kernels kernels = fastest_kernels();
 };
 

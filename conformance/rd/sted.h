@@ -3,6 +3,11 @@
 // L. Vasa, V. Skala, "A perception correlated comparison method for dynamic meshes", IEEE
 // Transactions on Visualization and Computer Graphics 17(2), 2011. What counts is how unevenly the
 // lengths of edges change around a vertex; moving or stretching everything alike costs nothing.
+//
+// Neighbourhood, window and constants are parameters of the measure. Here they are the nearest
+// neighbours in space and time and the constants of StedOptions, which could not be checked against
+// those that the paper found by people's judgement: compare these figures with each other, not with
+// published ones.
 #pragma once
 
 #include <span>

@@ -1,7 +1,10 @@
-// long_stream OUT: writes a stream of 100,000 vertices and 2,000 frames quickly, by encoding one
-// group and repeating it. For tests/benchmark/playback.sh.
+// long_stream OUT PROFILE AROUND ACROSS GROUPS: writes a stream of AROUND * ACROSS vertices and
+// GROUPS * 25 frames quickly, by encoding one group and repeating it. For
+// tests/benchmark/playback.sh.
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <string>
 
 #include "bitstream/container.h"
 #include "codec/enc/encoder.h"
@@ -10,19 +13,19 @@
 namespace {
 
 constexpr uint32_t kGroupFrames = 25;
-constexpr uint32_t kGroups = 80;
 
-reeb::Status repeat_group(const std::vector<uint8_t>& one, std::vector<uint8_t>& out) {
+reeb::Status repeat_group(const std::vector<uint8_t>& one, uint32_t groups,
+                          std::vector<uint8_t>& out) {
   reeb::ContainerReader in;
   if (reeb::Status s = in.parse(one, {}); !s.ok()) return s;
   reeb::ContainerWriter writer(out);
-  in.header.total_frames = kGroupFrames * kGroups;
+  in.header.total_frames = kGroupFrames * groups;
   in.header.frame_rate = 25;
   if (reeb::Status s = writer.begin(in.header); !s.ok()) return s;
   if (reeb::Status s = writer.reference(in.references[0].header, in.references[0].mesh); !s.ok())
     return s;
   reeb::GroupChunk& group = in.groups[0];
-  for (uint32_t g = 0; g < kGroups; ++g) {
+  for (uint32_t g = 0; g < groups; ++g) {
     group.header.first_frame = g * kGroupFrames;
     if (reeb::Status s = writer.group(group.header, group); !s.ok()) return s;
   }
@@ -32,17 +35,23 @@ reeb::Status repeat_group(const std::vector<uint8_t>& one, std::vector<uint8_t>&
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return 2;
+  if (argc != 6) {
+    std::fputs("usage: long_stream OUT main|fast AROUND ACROSS GROUPS\n", stderr);
+    return 2;
+  }
+  const auto number = [argv](int i) { return static_cast<uint32_t>(std::atoi(argv[i])); };
   reeb::Sequence sequence;
-  sequence.shots.push_back(reeb::test::animate(reeb::test::torus(400, 250), kGroupFrames));
+  sequence.shots.push_back(
+      reeb::test::animate(reeb::test::torus(number(3), number(4)), kGroupFrames));
   reeb::EncodeOptions options;
   options.target_value = 0.05;
   options.group_length = kGroupFrames;
-  if (argc > 2) options.profile = reeb::Profile::kFast;
+  options.effort = reeb::kLeastEffort;
+  if (std::string(argv[2]) == "fast") options.profile = reeb::Profile::kFast;
   std::vector<uint8_t> one, out;
   reeb::EncodeStats stats;
   reeb::Status status = reeb::encode(sequence, options, one, stats);
-  if (status.ok()) status = repeat_group(one, out);
+  if (status.ok()) status = repeat_group(one, number(5), out);
   if (!status.ok()) {
     std::fprintf(stderr, "long_stream: %s\n", status.message().c_str());
     return 1;
