@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace reeb {
@@ -31,23 +30,23 @@ class Corrections {
   /// `step` in world units.
   Corrections(uint32_t frames, double step) : step_(step), frames_(frames) {}
 
-  /// Of `axis` of row `row` in frame t, which has none yet.
-  void add(uint32_t row, uint32_t t, uint32_t axis, const Correction& correction) {
-    frames_[t].push_back({row, axis, correction});
+  /// Of `axis` of a vertex in frame t, which has none yet.
+  void add(uint32_t vertex, uint32_t t, uint32_t axis, const Correction& correction) {
+    frames_[t].push_back({vertex, axis, correction});
   }
 
-  /// Corrects frame t; row r lies at xyz + output[r] * stride.
-  void apply(uint32_t t, std::span<const uint32_t> output, float* xyz, size_t stride) const {
+  /// Corrects frame t; vertex v lies at xyz + v * stride.
+  void apply(uint32_t t, float* xyz, size_t stride) const {
     if (frames_.empty()) return;
     for (const Entry& e : frames_[t]) {
-      float& x = xyz[output[e.row] * stride + e.axis];
+      float& x = xyz[e.vertex * stride + e.axis];
       x = e.correction.apply(x, step_);
     }
   }
 
  private:
   struct Entry {
-    uint32_t row;
+    uint32_t vertex;
     uint32_t axis;
     Correction correction;
   };

@@ -43,13 +43,28 @@ using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const o
 
 inline constexpr uint32_t kTileRows = 32;
 
-/// Positions of kTileRows rows in one frame. For each axis a: sum[i] = (0 + scale[a][0] *
-/// tile[0][i]) + scale[a][1] * tile[1][i] + ..., scale[a][k] being scale[a * plane_count + k], then
-/// out[a][i] = sum[i] + mean[a] in binary64, rounded. `tile` is [plane][row]: all of a tile lies
-/// together, so that reading it is what memory does best. Plain pointers: inline members of
-/// containers, compiled for one instruction set, could be linked in for all.
-using CombineKernel = void (*)(const float* tile, uint32_t plane_count, const float* scale,
-                               const double mean[3], float (*out)[kTileRows]);
+/// The components of kTileRows vertices, all of which lie together, so that reading them is what
+/// memory does best. Plain pointers: inline members of containers, compiled for one instruction
+/// set, could be linked in for all.
+struct ComponentTile {
+  const float* wide;  ///< [component][vertex]
+  uint32_t wide_count;
+  const uint32_t* narrow;  ///< [pair][vertex]: two components, 16 bits each, signed
+  uint32_t pair_count;
+};
+
+/// What the components count in one frame.
+struct FrameBasis {
+  const float* wide;       ///< [axis][component]
+  const uint32_t* narrow;  ///< [axis][pair]
+  float unit;              ///< of the narrow components' sum
+  const double* mean;      ///< of each axis
+};
+
+/// Writes the positions of a tile's vertices, xyz after xyz. For each axis: sum = 0 + wide[0] *
+/// tile.wide[0] + wide[1] * tile.wide[1] + ... in binary32, in this order; sum + unit * float(the
+/// sum of the narrow products, which is within 32 bits); mean + sum in binary64, rounded.
+using CombineKernel = void (*)(const ComponentTile& tile, const FrameBasis& basis, float* xyz);
 
 /// What the kernels see of a LaneField: eight components of all rows.
 struct LaneBlock {

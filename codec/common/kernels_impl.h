@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstring>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include "codec/common/kernels.h"
 
@@ -120,31 +123,72 @@ constexpr uint32_t kFloats = 8;
 #else
 constexpr uint32_t kFloats = 4;
 #endif
-/// A vector register of floats.
+/// Vector registers of floats and of as many integers, and what holds as many doubles.
 using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
-
+using Words = int32_t __attribute__((vector_size(kFloats * sizeof(float))));
 using Doubles = double __attribute__((vector_size(kFloats * sizeof(double))));
 
-void combine(const float* tile, uint32_t plane_count, const float* scale, const double mean[3],
-             float (*out)[kTileRows]) {
-  constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
-  for (uint32_t i = 0; i < kTileRows; i += kFloats * kVectors) {
-    Floats total[3][kVectors] = {};
-    for (uint32_t k = 0; k < plane_count; ++k) {
-      Floats values[kVectors];
-      std::memcpy(values, tile + size_t{k} * kTileRows + i, sizeof values);
-      for (uint32_t a = 0; a < 3; ++a) {
-        for (uint32_t j = 0; j < kVectors; ++j)
-          total[a][j] += scale[a * plane_count + k] * values[j];
-      }
+/// sum + a b, a and b being pairs of 16-bit integers.
+inline Words add_products(Words sum, Words a, uint32_t pair) {
+  const Words b = Words{} + static_cast<int32_t>(pair);
+#if defined(__AVX512VNNI__)
+  return reinterpret_cast<Words>(_mm512_dpwssd_epi32(
+      reinterpret_cast<__m512i>(sum), reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
+#elif defined(__AVX2__)
+  return sum + reinterpret_cast<Words>(
+                   _mm256_madd_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#elif defined(__SSE2__)
+  return sum + reinterpret_cast<Words>(
+                   _mm_madd_epi16(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
+#else
+  return sum + ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
+#endif
+}
+
+constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
+
+inline void add_wide(const ComponentTile& tile, const FrameBasis& basis, uint32_t first,
+                     Floats (*sum)[kVectors]) {
+  for (uint32_t k = 0; k < tile.wide_count; ++k) {
+    Floats values[kVectors];
+    std::memcpy(values, tile.wide + size_t{k} * kTileRows + first, sizeof values);
+    for (uint32_t a = 0; a < 3; ++a) {
+      for (uint32_t j = 0; j < kVectors; ++j)
+        sum[a][j] += basis.wide[a * tile.wide_count + k] * values[j];
     }
+  }
+}
+
+inline void add_narrow(const ComponentTile& tile, const FrameBasis& basis, uint32_t first,
+                       Words (*sum)[kVectors]) {
+  for (uint32_t k = 0; k < tile.pair_count; ++k) {
+    Words values[kVectors];
+    std::memcpy(values, tile.narrow + size_t{k} * kTileRows + first, sizeof values);
+    for (uint32_t a = 0; a < 3; ++a) {
+      for (uint32_t j = 0; j < kVectors; ++j)
+        sum[a][j] = add_products(sum[a][j], values[j], basis.narrow[a * tile.pair_count + k]);
+    }
+  }
+}
+
+void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
+  float axes[3][kTileRows];
+  for (uint32_t first = 0; first < kTileRows; first += kFloats * kVectors) {
+    Floats wide[3][kVectors] = {};
+    Words narrow[3][kVectors] = {};
+    add_wide(tile, basis, first, wide);
+    add_narrow(tile, basis, first, narrow);
     for (uint32_t a = 0; a < 3; ++a) {
       for (uint32_t j = 0; j < kVectors; ++j) {
-        const Doubles moved = __builtin_convertvector(total[a][j], Doubles) + mean[a];
+        const Floats all = wide[a][j] + basis.unit * __builtin_convertvector(narrow[a][j], Floats);
+        const Doubles moved = __builtin_convertvector(all, Doubles) + basis.mean[a];
         const Floats rounded = __builtin_convertvector(moved, Floats);
-        std::memcpy(out[a] + i + j * kFloats, &rounded, sizeof rounded);
+        std::memcpy(axes[a] + first + j * kFloats, &rounded, sizeof rounded);
       }
     }
+  }
+  for (uint32_t i = 0; i < kTileRows; ++i) {
+    for (uint32_t a = 0; a < 3; ++a) xyz[3 * i + a] = axes[a][i];
   }
 }
 

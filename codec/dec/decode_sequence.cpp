@@ -80,11 +80,10 @@ void SequenceDecoder::decode_run(const ReferenceChunk& reference, const Run& run
     if (status.ok())
       status = store_.decode_next(chunk, reference, threads, g + 1 < run.end, state, group);
     out.results[i] = status;
-    for (uint32_t t = 0; status.ok() && t < chunk.header.frame_count; ++t) {
-      const auto& output = group->shot->surface.output;
-      float* xyz = out.positions + out.first[i] + size_t{t} * output.size() * 3;
-      group->synthesis.frame(t, output, xyz, 3);
-    }
+    if (!status.ok()) continue;
+    const size_t frame_size = group->shot->surface.output.size() * 3;
+    group->synthesis.frames(0, chunk.header.frame_count, out.positions + out.first[i], frame_size,
+                            3);
   }
 }
 

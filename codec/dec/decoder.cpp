@@ -153,8 +153,7 @@ Status Decoder::Impl::positions(uint32_t frame, const StopToken& stop, const Fra
     return Status::invalid(frame_name(frame) + " has more vertices than there is room for");
   std::shared_ptr<const OpenGroup> group;
   if (Status s = store.get(request, stop, group); !s.ok()) return s;
-  group->synthesis.frame(frame - group->header.first_frame, group->shot->surface.output,
-                         target.positions, target.stride);
+  group->synthesis.frame(frame - group->header.first_frame, target.positions, target.stride);
   faces = group->shot->faces;
   return {};
 }

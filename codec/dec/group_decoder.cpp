@@ -95,8 +95,7 @@ Status decode_basis(const GroupChunk& chunk, const DecodedSurface& surface,
   if (!decode_basis_planes(chunk, temporal.graph, stop, state.basis_contexts, basis))
     return stop.requested() ? Status::cancelled() : Status::corrupt("the basis section is damaged");
   const double q = static_cast<double>(chunk.header.quantization_step);
-  out = synthesize(surface.surface.graph.size(), std::move(planes), basis, temporal.order, q,
-                   surface.origin);
+  out = synthesize(std::move(planes), basis, temporal.order, q, surface.origin, surface.output);
   return {};
 }
 
@@ -111,7 +110,7 @@ Status decode_corrections(const GroupChunk& chunk, const DecodedSurface& surface
   const bool in_range = field.code(
       decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
       [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
-        corrections.add(row, t, axis, c);
+        corrections.add(surface.output[row], t, axis, c);
         return std::isfinite(c.value) && ++count <= h.correction_count && !decoder.overrun();
       });
   if (!in_range || count != h.correction_count || decoder.overrun())
@@ -164,7 +163,7 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
     state = {};
     ExactFrames frames;
     if (Status s = decode_lossless_group(chunk, surface, threads, stop, frames); !s.ok()) return s;
-    out = GroupSynthesis(std::move(frames));
+    out = GroupSynthesis(std::move(frames), surface.output);
     return {};
   }
   if (Status s = check_header(header); !s.ok()) return s;
@@ -175,7 +174,7 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
     return s;
   if (motion.regions() > 0) add_motion(motion, planes);
   if (header.profile == Profile::kThesis) {
-    out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin);
+    out = GroupSynthesis(std::move(planes), header.axis_step, surface.origin, surface.output);
   } else if (Status s = decode_basis(chunk, surface, std::move(planes), stop, state, out);
              !s.ok()) {
     return s;

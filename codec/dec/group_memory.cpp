@@ -28,8 +28,8 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
   if (h.profile == Profile::kLossless) return vertices * kBytesPerRow + kept_memory(vertices, h);
   const uint64_t components = h.component_count;
   const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
-  // The basis is there as it was decoded, by component and by frame.
-  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 12 * (components + 1));
+  // The basis is there as it was decoded, by component in binary64, and by frame.
+  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 16 * (components + 1));
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
                                         uint64_t{h.region_count} * sizeof(MotionModel::Transform));
   const bool corrected = h.correction_count > 0;
@@ -57,7 +57,8 @@ uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {
     const uint64_t stored = h.component_count * (12 * vertices + 2 * sizeof(std::vector<float>));
     return sizeof(GroupSynthesis) + stored + 4 * sizeof(uint32_t) * uint64_t{h.frame_count};
   }
-  const uint64_t planes = h.component_count * (4 * vertices + sizeof(std::vector<float>));
+  const uint64_t planes =
+      h.component_count * (4 * (vertices + kTileRows) + sizeof(std::vector<float>));
   const uint64_t times = 3 * uint64_t{h.frame_count} * (4 * uint64_t{h.component_count} + 8);
   const uint64_t corrections = h.frame_count * sizeof(std::vector<float>) +
                                2 * Corrections::kEntryBytes * h.correction_count;

@@ -44,11 +44,12 @@ BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transfo
 
 double BasisRefit::squared_error(const GroupSynthesis& synthesis) const {
   double error = signal_.energy;
+  Eigen::VectorXd u(gram_.rows());
   for (Eigen::Index row = 0; row < signal_.mean.size(); ++row) {
     const auto r = static_cast<size_t>(row);
     const double offset = synthesis.mean(r) - signal_.mean[row];
-    const Eigen::VectorXd u =
-        Eigen::Map<const Eigen::VectorXf>(synthesis.basis(r), gram_.rows()).cast<double>();
+    for (Eigen::Index k = 0; k < u.size(); ++k)
+      u[k] = synthesis.components().basis(r, static_cast<uint32_t>(k));
     error += u.dot(gram_ * u) - 2 * u.dot(projection_.col(row));
     error += offset * (offset * static_cast<double>(signal_.vertices()) + 2 * u.dot(sum_));
   }

@@ -49,14 +49,11 @@ class Corrector {
   double step_;
 };
 
-/// Positions of the base, [row][frame][axis].
-std::vector<float> decode_rows(const GroupSynthesis& base, const SurfaceContext& surface) {
+/// Positions of the base, [vertex][frame][axis].
+std::vector<float> decode_vertices(const GroupSynthesis& base, uint32_t vertices) {
   const uint32_t frames = base.frame_count();
-  std::vector<float> out(size_t{surface.rows()} * frames * 3);
-  std::vector<uint32_t> offset(surface.rows());
-  for (uint32_t r = 0; r < surface.rows(); ++r) offset[r] = r;
-  for (uint32_t t = 0; t < frames; ++t)
-    base.frame(t, offset, out.data() + size_t{t} * 3, size_t{3} * frames);
+  std::vector<float> out(size_t{vertices} * frames * 3);
+  base.frames(0, frames, out.data(), 3, size_t{3} * frames);
   return out;
 }
 
@@ -72,7 +69,7 @@ CodedCorrections encode_corrections(const GroupSynthesis& base, std::span<const 
                                     const SurfaceContext& surface, double bound) {
   const uint32_t frames = base.frame_count();
   const size_t frame_size = size_t{surface.rows()} * 3;
-  const std::vector<float> decoded = decode_rows(base, surface);
+  const std::vector<float> decoded = decode_vertices(base, surface.rows());
   const Corrector corrector(bound, largest_magnitude(original));
   CodedCorrections out;
   out.step = corrector.step();
@@ -80,11 +77,12 @@ CodedCorrections encode_corrections(const GroupSynthesis& base, std::span<const 
   BinaryEncoder encoder;
   CorrectionField field(surface.surface.graph, frames);
   const auto get = [&](uint32_t row, uint32_t t, uint32_t axis) {
-    return corrector.choose(original[frame_size * t + size_t{surface.input[row]} * 3 + axis],
-                            decoded[(size_t{row} * frames + t) * 3 + axis]);
+    const size_t vertex = surface.input[row];
+    return corrector.choose(original[frame_size * t + vertex * 3 + axis],
+                            decoded[(vertex * frames + t) * 3 + axis]);
   };
   field.code(encoder, get, [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
-    out.corrections.add(row, t, axis, c);
+    out.corrections.add(surface.input[row], t, axis, c);
     ++out.count;
     return true;
   });

@@ -222,7 +222,7 @@ ErrorSums ShotEncoder::measure(const std::vector<CodedGroup>& coded) const {
   ErrorSums sums;
   for (size_t i = 0; i < coded.size(); ++i) {
     for (uint32_t t = 0; t < coded[i].synthesis.frame_count(); ++t) {
-      coded[i].synthesis.frame(t, surface_.input, frame.data(), 3);
+      coded[i].synthesis.frame(t, frame.data(), 3);
       const std::span<const float> original = shot_.frame(groups_[i].first_frame + t);
       for (size_t v = 0; v < frame.size(); v += 3) {
         double square = 0;

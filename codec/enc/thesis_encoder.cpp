@@ -79,7 +79,8 @@ CodedGroup ThesisEncoder::encode(const SurfaceContext& surface, double q, const 
   out.coefficients = encoder.recorder().encode(encoder.recorder().size());
   Planes planes = field.take_planes();
   if (motion != nullptr) encode_motion(surface, model, MotionModel::kFrameStride, out, planes);
-  out.synthesis = GroupSynthesis(std::move(planes), out.axis_step, surface.header.origin);
+  out.synthesis =
+      GroupSynthesis(std::move(planes), out.axis_step, surface.header.origin, surface.input);
   return out;
 }
 

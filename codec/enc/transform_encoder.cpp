@@ -141,14 +141,14 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
     targets[0][r] = static_cast<float>(
         (signal_.mean[at] - static_cast<double>(surface.header.origin[at % 3])) * mean_scale);
   }
+  const std::vector<double> norms = plane_norms(planes);
   for (uint32_t k = 0; k < planes.size(); ++k) {
-    const double norm = plane_norm(planes[k]);
     for (size_t r = 0; r < temporal_.order.size(); ++r)
-      targets[k + 1][r] = static_cast<float>(basis(temporal_.order[r], k) * norm);
+      targets[k + 1][r] = static_cast<float>(basis(temporal_.order[r], k) * norms[k]);
   }
   const Planes coded = code_basis(targets, contexts, out);
   out.synthesis =
-      synthesize(signal_.vertices(), planes, coded, temporal_.order, out.q, surface.header.origin);
+      synthesize(planes, coded, temporal_.order, out.q, surface.header.origin, surface.input);
   out.squared_error = refit.squared_error(out.synthesis);
 }
 

@@ -67,6 +67,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!reeb::decode_group(chunk, surface, 1, false, state, synthesis).ok()) return 0;
   if (synthesis.frame_count() != kFrames) __builtin_trap();
   std::vector<float> xyz(surface.output.size() * 3);
-  for (const uint32_t t : {0u, kFrames - 1}) synthesis.frame(t, surface.output, xyz.data(), 3);
+  for (const uint32_t t : {0u, kFrames - 1}) synthesis.frame(t, xyz.data(), 3);
   return 0;
 }
