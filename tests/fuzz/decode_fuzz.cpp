@@ -14,7 +14,7 @@ constexpr uint32_t kMostFrames = 8;
 std::vector<float> decode(std::span<const uint8_t> bytes, bool backwards) {
   reeb::DecodeOptions options;
   options.limits = {
-      .max_vertices = 4096, .max_faces = 8192, .max_frames = 4096, .max_memory = 64u << 20};
+      .max_vertices = 1024, .max_faces = 2048, .max_frames = 4096, .max_memory = 64u << 20};
   std::unique_ptr<reeb::Decoder> decoder;
   if (!reeb::Decoder::open(bytes, options, decoder).ok()) return {};
   const uint32_t count = std::min(decoder->info().frame_count, kMostFrames);

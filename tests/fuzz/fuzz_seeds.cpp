@@ -19,8 +19,11 @@ void write(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
 std::vector<uint8_t> group_input(const reeb::GroupChunk& group) {
   const bool moving = group.header.region_count > 0;
   const bool corrected = group.header.correction_count > 0;
+  const bool quick = group.header.profile == reeb::Profile::kLossless &&
+                     (group.header.flags & reeb::GroupHeader::kQuick) != 0;
   std::vector<uint8_t> out = {static_cast<uint8_t>(static_cast<uint8_t>(group.header.profile) +
-                                                   (moving ? 66 : 0) + (corrected ? 129 : 0))};
+                                                   (moving ? 64 : 0) + (corrected ? 128 : 0) +
+                                                   (quick ? 32 : 0))};
   for (const auto& section : {group.motion, group.coefficients, group.basis}) {
     out.push_back(static_cast<uint8_t>(section.size()));
     out.push_back(static_cast<uint8_t>(section.size() >> 8));

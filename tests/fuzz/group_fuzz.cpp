@@ -29,11 +29,16 @@ reeb::DecodedSurface make_surface() {
 
 /// Every profile, with and without a motion model and corrections.
 GroupHeader make_header(uint8_t choice) {
-  constexpr std::array kProfiles = {Profile::kMain, Profile::kFast, Profile::kThesis};
+  constexpr std::array kProfiles = {Profile::kMain, Profile::kFast, Profile::kThesis,
+                                    Profile::kLossless};
   GroupHeader h;
   h.frame_count = kFrames;
   h.profile = kProfiles[choice % kProfiles.size()];
   h.component_count = h.profile == Profile::kThesis ? 3 * kFrames : 6;
+  if (h.profile == Profile::kLossless) {
+    h.flags = (choice & 0x20) != 0 ? GroupHeader::kQuick : 0;
+    return h;
+  }
   h.quantization_step = 0.01f;
   h.region_count = (choice & 0x40) != 0 ? 3 : 0;
   if ((choice & 0x80) != 0) {

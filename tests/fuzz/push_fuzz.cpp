@@ -15,7 +15,7 @@ constexpr uint32_t kMostFrames = 4;
 reeb::DecodeOptions options() {
   reeb::DecodeOptions out;
   out.limits = {
-      .max_vertices = 4096, .max_faces = 8192, .max_frames = 4096, .max_memory = 64u << 20};
+      .max_vertices = 1024, .max_faces = 2048, .max_frames = 4096, .max_memory = 64u << 20};
   return out;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the fuzzers with Clang under AddressSanitizer and UndefinedBehaviorSanitizer and runs each for a while, as many
-# at a time as there are processors, from the inputs in tests/fuzz/corpus and from the golden streams.
+# at a time as there are processors, from the inputs in tests/fuzz/corpus and from streams in the tree.
 # Usage: tests/fuzz/run.sh [SECONDS [BUILD_FOLDER]]
 # With REEB_KEEP_CORPUS=1 what was learned goes, made small, to tests/fuzz/corpus.
 set -euo pipefail
@@ -40,6 +40,8 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=cl
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
 cmake --build "$build" --target "${fuzzers[@]/%/_fuzz}" fuzz_seeds
 rm -rf "$build/seeds"
-"$build/tests/fuzz/fuzz_seeds" "$build/seeds" tests/codec/data/*.reeb
+# The golden streams have a little of everything, the smallest of the others are soon decoded.
+find conformance/streams/core -name '*.reeb' -size -1500c -exec \
+  "$build/tests/fuzz/fuzz_seeds" "$build/seeds" tests/codec/data/*.reeb {} +
 printf '%s\n' "${fuzzers[@]}" | xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'run {}'
 [[ -z ${REEB_KEEP_CORPUS:-} ]] || for name in "${fuzzers[@]}"; do keep "$name"; done
