@@ -11,7 +11,9 @@ cmake --build "$build" --target decode_stream >/dev/null
 
 measure() {
   find "$build" -name '*.gcda' -delete
-  conformance/run.py --decoder "$build/conformance/decode_stream {stream} {out}" --failures --class "$@"
+  for threads in 1 2; do
+    conformance/run.py --decoder "$build/conformance/decode_stream {stream} {out} $threads" --failures --class "$@"
+  done
   conformance/coverage.py "$build"
 }
 

@@ -1,7 +1,9 @@
-// decode_stream STREAM OUT: decodes every frame, in order, and writes what conformance/README.md
-// describes. The smallest program around the decoder library, for conformance runs.
+// decode_stream STREAM OUT [THREADS]: decodes every frame, in order, and writes what
+// conformance/README.md describes. The smallest program around the decoder library, for conformance
+// runs.
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -66,25 +68,28 @@ reeb::Status write_frames(reeb::Decoder& decoder, std::ofstream& out) {
   return result;
 }
 
-reeb::Status run(const char* stream, const char* output) {
+reeb::Status run(const char* stream, const char* output, unsigned threads) {
   std::ifstream in(stream, std::ios::binary);
   if (!in) return reeb::Status::io("the stream cannot be read");
   const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
   std::ofstream out(output, std::ios::binary);
   std::unique_ptr<reeb::Decoder> decoder;
   const std::span data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  if (reeb::Status s = reeb::Decoder::open(data, {}, decoder); !s.ok()) return s;
+  reeb::DecodeOptions options;
+  options.threads = threads;
+  if (reeb::Status s = reeb::Decoder::open(data, options, decoder); !s.ok()) return s;
   return write_frames(*decoder, out);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: decode_stream STREAM OUT\n", stderr);
+  if (argc < 3 || argc > 4) {
+    std::fputs("usage: decode_stream STREAM OUT [THREADS]\n", stderr);
     return 2;
   }
-  const reeb::Status status = run(argv[1], argv[2]);
+  const unsigned threads = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;
+  const reeb::Status status = run(argv[1], argv[2], threads);
   if (!status.ok())
     std::fprintf(stderr, "decode_stream: %s: %s\n", argv[1], status.message().c_str());
   return exit_code(status.code());

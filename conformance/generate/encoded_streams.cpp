@@ -182,7 +182,11 @@ void add_groups(Maker& m) {
   named.frame_rate = 23.976;
   named.start_time = -12.5;
   named.metadata = {{"name", "tetrahedron"}, {"unit", "cm"}, {"", "no key"}, {"empty", ""}};
-  m.add("metadata", "Frame rate, start time and metadata.", named, at(0.2));
+  // Characters of two, three and four bytes, at the ends of what their first bytes can start.
+  named.metadata["caf\u00e9"] = "\u0800\ud7ff\uff0d";
+  named.metadata["\u20ac"] = "\U00010000\U0001f43e\U000e0041\U0010ffff";
+  m.add("metadata", "Frame rate, start time and metadata with letters of one to four bytes.", named,
+        at(0.2));
 }
 
 void add_profiles(Maker& m) {
