@@ -49,4 +49,23 @@ class AdaptiveBit {
   uint32_t state_ = 1u << 31;
 };
 
+/// The same in 16 bits: rougher where it is almost certain, and quicker.
+class ShortBit {
+ public:
+  /// 32 .. 65504.
+  Probability p1() const { return p_ < 32 ? 32 : p_ > 65504 ? 65504 : p_; }
+
+  /// Learns `bit`; the rate falls to 1 / (limit + 1.5), limit 1 .. 1023.
+  void update(bool bit, uint32_t limit) {
+    const int rate = static_cast<int>(detail::kAdaptationRates[count_] / 2);
+    const int target = bit ? 65535 : 0;
+    p_ = static_cast<uint16_t>(p_ + ((target - p_) * rate >> 15));
+    if (count_ < limit) ++count_;
+  }
+
+ private:
+  uint16_t p_ = 1u << 15;
+  uint16_t count_ = 0;
+};
+
 }  // namespace reeb

@@ -23,25 +23,23 @@ constexpr std::array<Probability, kSquashSize> make_squash() {
   return table;
 }
 
-constexpr auto kSquash = make_squash();
-
 constexpr std::array<int16_t, 4096> make_stretch() {
+  constexpr auto squash = make_squash();
   std::array<int16_t, 4096> table{};
   int x = -kStretchLimit;
   for (int i = 0; i < 4096; ++i) {
     const int p = i * 16 + 8;
-    while (x < kStretchLimit && kSquash[x + kSquashLimit] < p) ++x;
+    while (x < kStretchLimit && squash[x + kSquashLimit] < p) ++x;
     table[i] = static_cast<int16_t>(x);
   }
   return table;
 }
 
-constexpr auto kStretch = make_stretch();
-
 }  // namespace
 
-Probability squash(int x) { return kSquash[x + kSquashLimit]; }
-
-int stretch(Probability p) { return kStretch[p >> 4]; }
+namespace detail {
+constexpr std::array<Probability, 2 * kSquashLimit + 1> kSquash = make_squash();
+constexpr std::array<int16_t, 4096> kStretch = make_stretch();
+}  // namespace detail
 
 }  // namespace reeb

@@ -14,24 +14,28 @@ namespace reeb {
 inline constexpr int kStretchLimit = 2047;     ///< inputs lie in +-8
 inline constexpr int kSquashLimit = 12 * 256;  ///< mixed values lie in +-12
 
+namespace detail {
+extern const std::array<Probability, 2 * kSquashLimit + 1> kSquash;
+extern const std::array<int16_t, 4096> kStretch;
+}  // namespace detail
+
 /// round(65536 / (1 + exp(-x / 256))) clamped to 1 .. 65535; |x| <= kSquashLimit.
-Probability squash(int x);
+inline Probability squash(int x) { return detail::kSquash[static_cast<size_t>(x + kSquashLimit)]; }
 
 /// Inverse of squash on 4096 equal intervals of p, |result| <= kStretchLimit.
-int stretch(Probability p);
+inline int stretch(Probability p) { return detail::kStretch[p >> 4]; }
 
 /// Mixes N context tables for one binary decision. The caller names one entry of each table and a
 /// set of mixing weights; `predict` leaves the model as it is, so that an encoder may ask for many
-/// costs.
-template <int N>
+/// costs. `Bit` is the entry of a table: AdaptiveBit or ShortBit.
+template <int N, class Bit = AdaptiveBit>
 class BitMixer {
  public:
   struct Prediction {
     std::array<uint32_t, N> entry;
     std::array<int, N> input;
-    uint32_t weight_set = 0;
-    int dot = 0;
-    Probability p1 = kEvenOdds;
+    uint32_t weight_set;
+    Probability p1;
   };
 
   BitMixer(const std::array<uint32_t, N>& table_sizes, uint32_t weight_sets, uint32_t limit)
@@ -50,10 +54,9 @@ class BitMixer {
       dot += int64_t{w[i]} * out.input[i];
     }
     const int64_t x = dot >> 16;
-    out.dot = static_cast<int>(x < -kSquashLimit  ? -kSquashLimit
-                               : x > kSquashLimit ? kSquashLimit
-                                                  : x);
-    out.p1 = squash(out.dot);
+    out.p1 = squash(static_cast<int>(x < -kSquashLimit  ? -kSquashLimit
+                                     : x > kSquashLimit ? kSquashLimit
+                                                        : x));
     return out;
   }
 
@@ -70,7 +73,7 @@ class BitMixer {
   static constexpr int32_t kUnit = 1 << 16;
   static constexpr int kRateShift = 16;
 
-  std::array<std::vector<AdaptiveBit>, N> tables_;
+  std::array<std::vector<Bit>, N> tables_;
   std::vector<int32_t> weights_;
   uint32_t limit_;
 };

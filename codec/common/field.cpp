@@ -9,10 +9,16 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kRunning = 32;  ///< rows over which the running mean fades
-constexpr uint32_t kRecent = 4;    ///< rows over which the recent mean fades
-constexpr double kFading = 0.5;    ///< of what a group knows about weights, in the next one
+constexpr uint32_t kRecent = 4;  ///< rows over which the recent mean fades
+constexpr float kFading = 0.5f;  ///< of what a group knows about weights, in the next one
 constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
+
+/// 2^16 / count, rounded down; 0 for nothing to take the mean of.
+constexpr std::array<uint32_t, kMaxNeighbours + 1> kInverse = [] {
+  std::array<uint32_t, kMaxNeighbours + 1> out{};
+  for (uint32_t i = 1; i <= kMaxNeighbours; ++i) out[i] = 65536 / i;
+  return out;
+}();
 
 /// 2^50 / step, rounded up, of every level.
 const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
@@ -21,10 +27,6 @@ const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
     out[i] = ((uint64_t{1} << 50) + kStepTable[i] - 1) / kStepTable[i];
   return out;
 }();
-
-uint32_t level_of(uint32_t row, uint32_t rows) {
-  return std::min(7u, log2_q5(std::max(1u, rows / (row + 1))) / 32);
-}
 
 }  // namespace
 
@@ -54,26 +56,17 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
       estimator_(graph, options.weights, threads),
       magnitude_(graph.size(), 0),
       last_(graph.size(), 0),
-      history_(graph.size(), 0),
-      ring_history_(graph.size(), 0),
-      level_(graph.size()) {
-  for (uint32_t r = 0; r < graph.size(); ++r)
-    level_[r] = static_cast<uint8_t>(level_of(r, graph.size()));
-  estimator_.solve();
-}
+      history_(graph.size(), 0) {}
 
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
   estimator_.observe_reference(points, order);
-  estimator_.solve();
 }
 
 std::vector<std::vector<float>> Field::next_group() {
-  if (options_.adaptive) estimator_.solve(kFading);
+  if (options_.adaptive) estimator_.fade(kFading);
   std::vector<std::vector<float>> planes = take_planes();
   planes_.clear();
-  for (auto* magnitudes : {&last_, &history_, &ring_history_}) {
-    std::fill(magnitudes->begin(), magnitudes->end(), 0);
-  }
+  for (auto* magnitudes : {&last_, &history_}) std::fill(magnitudes->begin(), magnitudes->end(), 0);
   return planes;
 }
 
@@ -90,32 +83,23 @@ float Field::predict(uint32_t row, const float* plane) const {
 
 Surroundings Field::surroundings(uint32_t row) const {
   const PredictionGraph::Row& r = graph_.rows[row];
-  uint64_t ring = 0;
-  uint64_t extra = 0;
-  uint32_t largest = 0;
-  for (uint32_t i = 0; i < r.ring; ++i) {
-    ring += magnitude_[r.neighbour[i]];
-    largest = std::max(largest, magnitude_[r.neighbour[i]]);
-  }
+  uint32_t ring = 0;
+  uint32_t extra = 0;
+  for (uint32_t i = 0; i < r.ring; ++i) ring += magnitude_[r.neighbour[i]];
   for (uint32_t i = r.ring; i < r.count; ++i) extra += magnitude_[r.neighbour[i]];
-  const uint32_t step = step_of(row);
-  // (x << 16) / step, by a product where that is exact: x * inverse errs by less than 2^34 / step.
-  const uint64_t inverse = kInverseSteps[options_.predict ? graph_.step_level[row] : 0];
-  const auto relative = [step, inverse](uint64_t x) {
-    if (x < 1u << 18) return static_cast<uint32_t>(x * inverse >> 34);
-    return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / step, kMagnitudeCap));
+  const auto mean = [](uint32_t sum, uint32_t count) {
+    return static_cast<uint32_t>(uint64_t{sum} * kInverse[count] >> 16);
   };
   Surroundings s;
-  s.ring_mean = relative(r.ring > 0 ? ring / r.ring : 0);
-  s.ring_max = relative(largest);
-  s.history = relative(history_[row]);
-  s.ring_history = relative(ring_history_[row]);
-  s.running = relative(running_ / kRunning);
-  s.recent = relative(recent_ / kRecent);
-  s.last = relative(last_[row]);
-  s.extra_mean = r.count > r.ring ? relative(extra / (r.count - r.ring)) : s.ring_mean;
-  s.level = level_[row];
-  s.component = static_cast<uint32_t>(planes_.size() - 1);
+  s.ring_mean = mean(ring, r.ring);
+  s.extra_mean = r.count > r.ring ? mean(extra, r.count - r.ring) : s.ring_mean;
+  s.recent = recent_ / kRecent;
+  s.history = history_[row];
+  s.last = last_[row];
+  if (options_.predict) {
+    s.step = kStepTable[graph_.step_level[row]];
+    s.inverse_step = kInverseSteps[graph_.step_level[row]];
+  }
   return s;
 }
 
@@ -124,33 +108,26 @@ void Field::note(uint32_t row, int64_t residual, uint32_t step) {
       static_cast<uint64_t>(residual < 0 ? -residual : residual), uint64_t{kMagnitudeCap} << 8);
   const auto magnitude = static_cast<uint32_t>(std::min<uint64_t>(size * step >> 8, kMagnitudeCap));
   magnitude_[row] = magnitude;
-  running_ += magnitude;
-  running_ -= running_ / kRunning;
   recent_ += magnitude;
   recent_ -= recent_ / kRecent;
 }
 
 void Field::finish_component(double energy) {
-  const auto k = static_cast<uint32_t>(planes_.size() - 1);
   for (uint32_t r = 0; r < graph_.size(); ++r) {
     history_[r] =
         static_cast<uint32_t>((uint64_t{history_[r]} * 154 + uint64_t{magnitude_[r]} * 102) >> 8);
   }
-  for (uint32_t r = 0; r < graph_.size(); ++r) {
-    uint64_t sum = 0;
-    const uint32_t begin = graph_.link_begin[r];
-    const uint32_t end = graph_.link_begin[r + 1];
-    for (uint32_t i = begin; i < end; ++i) sum += history_[graph_.links[i]];
-    ring_history_[r] = end > begin ? static_cast<uint32_t>(sum / (end - begin)) : 0;
-  }
-  last_ = magnitude_;
+  recent_ = 0;
+  if (options_.adaptive) learn(energy);
+  std::swap(last_, magnitude_);
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
-  running_ = recent_ = 0;
-  if (!options_.adaptive) return;
+}
+
+void Field::learn(double energy) {
   const uint32_t fine_rows = graph_.size() - graph_.size() / 4;
   const double noise = options_.noise_share * (energy / fine_rows) + options_.noise_floor;
-  estimator_.observe(planes_.back().data(), noise);
-  if (resolve_after(k)) estimator_.solve();
+  estimator_.observe(planes_.back(), magnitude_, noise);
+  if (resolve_after(component_count() - 1)) estimator_.solve();
 }
 
 }  // namespace reeb

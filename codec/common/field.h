@@ -62,30 +62,30 @@ class Field {
   Surroundings surroundings(uint32_t row) const;
   void note(uint32_t row, int64_t residual, uint32_t step);
   void finish_component(double energy);
+  void learn(double energy);
 
   const PredictionGraph& graph_;
   FieldOptions options_;
   WeightEstimator estimator_;
   MagnitudeModel model_;
   std::deque<std::vector<float>>
-      planes_;                          ///< a deque: the estimator keeps pointers to its elements
-  std::vector<uint32_t> magnitude_;     ///< |n| * step of the component being coded, in q / 256
-  std::vector<uint32_t> last_;          ///< the magnitudes of the component before
-  std::vector<uint32_t> history_;       ///< decaying mean of the magnitudes over components
-  std::vector<uint32_t> ring_history_;  ///< mean history over linked rows
-  std::vector<uint8_t> level_;
-  uint32_t running_ = 0;  ///< decaying mean along the rows, times 32
-  uint32_t recent_ = 0;   ///< the same over fewer rows, times 4
+      planes_;                       ///< a deque: the estimator keeps pointers to its elements
+  std::vector<uint32_t> magnitude_;  ///< |n| * step of the component being coded, in q / 256
+  std::vector<uint32_t> last_;       ///< the magnitudes of the component before
+  std::vector<uint32_t> history_;    ///< decaying mean of the magnitudes over components
+  uint32_t recent_ = 0;              ///< decaying mean along the rows, times 4
 };
 
 template <class Residual>
 void Field::code_component(Residual&& residual) {
+  if (planes_.empty() && options_.predict) estimator_.solve();
   std::vector<float>& plane = planes_.emplace_back(graph_.size());
   double energy = 0;
   for (uint32_t row = 0; row < graph_.size(); ++row) {
     const float prediction = predict(row, plane.data());
     const uint32_t step = step_of(row);
-    MagnitudeModel::Bins bins(model_, surroundings(row));
+    const Surroundings around = surroundings(row);
+    MagnitudeModel::Bins bins(model_, around);
     const int64_t n = residual(row, prediction, step, bins);
     const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
     plane[row] = prediction + correction;

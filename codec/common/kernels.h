@@ -25,18 +25,40 @@ struct alignas(64) WeightBatch {
   Lanes prior[kMaxNeighbours];      ///< prior weight
   Lanes precision[kMaxNeighbours];  ///< 1 / deviation^2
   Lanes in_use[kMaxNeighbours];     ///< 1 where there is a neighbour, 0 for padding
-  uint32_t neighbour[kMaxNeighbours][kLanes];
-  uint32_t self[kLanes];
-  uint32_t count = 0;  ///< largest number of neighbours among the eight
+  uint32_t count = 0;               ///< largest number of neighbours among the eight
 };
 
 /// Adds the reference positions of eight rows: y[i] is where neighbour i lies from the row, 0 for
 /// padding.
 using ObservePointsKernel = void (*)(WeightBatch&, const Lanes (*y)[3], const Lanes& inverse_noise);
 
-/// Adds one observation of every row: the plane of values, weighted by `inverse_noise`.
-using AccumulateKernel = void (*)(WeightBatch&, const float* values, double inverse_noise,
-                                  bool sum_to_one);
+/// The same of one row as it is kept while others are solved: the matrix in strips of eight
+/// columns, rows 0 and on of columns 0 .. 7, then rows 8 and on of columns 8 .. 15.
+struct alignas(64) RowEquations {
+  Lanes strip[kMaxNeighbours + kMaxNeighbours / 2];
+  double target[kMaxNeighbours];
+};
+
+/// From and to the equations of the rows of a batch; targets are only loaded.
+using LoadEquationsKernel = void (*)(WeightBatch&, const RowEquations* const rows[kLanes]);
+using StoreEquationsKernel = void (*)(const WeightBatch&, RowEquations* const rows[kLanes]);
+
+/// Observations that are kept before every row has learned from them.
+inline constexpr uint32_t kObservations = 16;
+
+/// What a row is to learn from.
+struct FoldTask {
+  const float* values;  ///< [row][observation]
+  const double* scale;  ///< of each observation: its noise is 1 then
+  const uint32_t* neighbour;
+  uint32_t count;  ///< neighbours
+  uint32_t row;
+  uint32_t begin, end;  ///< the observations to learn from
+  bool sum_to_one;
+};
+
+/// Adds the observations, one after another.
+using FoldKernel = void (*)(RowEquations&, const FoldTask&);
 
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
@@ -93,7 +115,9 @@ using DecodeLanesKernel = void (*)(LaneBlock&, RansDecoder&, uint32_t lanes);
 
 struct Kernels {
   ObservePointsKernel observe_points;
-  AccumulateKernel accumulate;
+  LoadEquationsKernel load_equations;
+  StoreEquationsKernel store_equations;
+  FoldKernel fold;
   SolveKernel solve;
   CombineKernel combine;
   GuessLanesKernel guess_lanes;

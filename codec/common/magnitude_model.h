@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "codec/common/coding_tools.h"
 #include "entropy/mixer.h"
 
 namespace reeb {
@@ -27,18 +28,18 @@ constexpr uint32_t of(uint64_t n) {
 }
 }  // namespace bucket
 
-/// What is known of a residual before it is coded, in 1/256 of its own quantization step.
+/// What is known of a residual before it is coded: magnitudes in 1/256 of the quantization step q.
 struct Surroundings {
-  uint32_t ring_mean = 0;     ///< mean magnitude of the ring in this component
-  uint32_t ring_max = 0;      ///< largest magnitude of the ring in this component
-  uint32_t history = 0;       ///< decaying mean of the row's magnitudes in earlier components
-  uint32_t ring_history = 0;  ///< the same, averaged over the rows linked to it
-  uint32_t running = 0;       ///< decaying mean over the rows coded just before
-  uint32_t recent = 0;        ///< the same, forgetting faster
-  uint32_t extra_mean = 0;    ///< mean magnitude of the neighbours beyond the ring
-  uint32_t last = 0;          ///< the row's magnitude in the previous component
-  uint32_t level = 0;         ///< 0 .. 7, from the finest rows to the coarsest
-  uint32_t component = 0;
+  uint32_t ring_mean = 0;    ///< of the ring in this component
+  uint32_t extra_mean = 0;   ///< of the neighbours beyond the ring
+  uint32_t recent = 0;       ///< decaying mean over the rows coded just before
+  uint32_t history = 0;      ///< decaying mean of the row's own ones in earlier components
+  uint32_t last = 0;         ///< the row's own one in the previous component
+  uint32_t step = 1u << 16;  ///< of the row, in 1/65536 of q
+  uint64_t inverse_step = uint64_t{1} << 34;  ///< 2^50 / step, rounded up
+
+  /// Sixteen times the magnitude to expect.
+  uint32_t expected() const { return 3 * ring_mean + 2 * extra_mean + 3 * recent + 8 * history; }
 };
 
 class MagnitudeModel {
@@ -47,33 +48,59 @@ class MagnitudeModel {
   static constexpr uint32_t kEscapeBegin = bucket::begin(kBins);
   static constexpr uint64_t kMaxMagnitude = (uint64_t{1} << 56) - 1;
 
-  static constexpr int kTables = 8;
-  using Mixer = BitMixer<kTables>;
+  static constexpr int kTables = 4;
+  using Mixer = BitMixer<kTables, ShortBit>;
+
+  /// Where next to nothing is expected, whether it is 0 is one adaptive bit, by thirds of the
+  /// bound; else, and beyond, bits are mixed.
+  static constexpr uint32_t kCalmClasses = 3;
+  static uint32_t calm_class(const Surroundings& s) {
+    const uint32_t expected = s.expected();
+    const uint32_t third = s.step >> 8;
+    return (expected >= third) + (expected >= 2 * third) + (expected >= 3 * third);
+  }
 
   /// Table entries that the surroundings choose.
   struct Context {
-    std::array<uint32_t, kTables> base;
-    uint32_t weight_set = 0;
-    uint32_t escape = 0;
+    std::array<uint32_t, kTables> entry;
+    uint32_t escape;
   };
 
   /// Predictions for the unary decisions of one residual, made when first asked for.
   class Bins {
    public:
     Bins(const MagnitudeModel& model, const Surroundings& s)
-        : model_(model), context_(context(s)) {}
+        : model_(model),
+          around_(s),
+          calm_(MagnitudeModel::calm_class(s)),
+          first_(calm_ < kCalmClasses) {}
 
-    const Mixer::Prediction& operator[](uint32_t i) {
+    bool calm() const { return first_ > 0; }
+    uint32_t calm_class() const { return calm_; }
+
+    /// Probability that the bucket is beyond i.
+    Probability p1(uint32_t i) { return i < first_ ? model_.calm_[calm_].p1() : mixed(i).p1; }
+
+    /// i > 0 where it is calm.
+    const Mixer::Prediction& mixed(uint32_t i) {
+      if (made_ == 0) {
+        context_ = context(around_);
+        made_ = first_;
+      }
       for (; made_ <= i; ++made_) bins_[made_] = model_.predict(context_, made_);
       return bins_[i];
     }
+    /// Pre-condition: `mixed` was called.
     uint32_t escape() const { return context_.escape; }
 
    private:
     const MagnitudeModel& model_;
+    const Surroundings& around_;
+    uint32_t calm_;
+    uint32_t first_;  ///< mixed bin
+    uint32_t made_ = 0;
     Context context_;
     std::array<Mixer::Prediction, kBins> bins_;
-    uint32_t made_ = 0;
   };
 
   MagnitudeModel();
@@ -94,8 +121,10 @@ class MagnitudeModel {
     const auto wanted = static_cast<uint64_t>(value < 0 ? -value : value);
     const uint32_t wanted_bucket = std::min(kBins, bucket::of(wanted));
     uint32_t b = 0;
+    if (bins.calm() && !calm_[bins.calm_class()].code(coder, wanted > 0)) return 0;
+    if (bins.calm()) b = 1;
     for (bool more = true; b < kBins && more; b += more ? 1 : 0) {
-      const Mixer::Prediction& bin = bins[b];
+      const Mixer::Prediction& bin = bins.mixed(b);
       more = coder.code(b < wanted_bucket, bin.p1);
       mixer_.update(bin, more);
     }
@@ -115,8 +144,18 @@ class MagnitudeModel {
   static constexpr uint32_t kMantissaBits = 24;
   static constexpr uint32_t kEscapeLimit = 30;
 
+  // Contexts of each table.
+  static constexpr std::array<uint32_t, kTables> kContexts = {12 * 12, 24, 8 * 12, 12 * 12};
+  static constexpr uint32_t kAdaptationLimit = 40;
+
   static Context context(const Surroundings& s);
-  Mixer::Prediction predict(const Context& c, uint32_t bin) const;
+  Mixer::Prediction predict(const Context& c, uint32_t bin) const {
+    std::array<uint32_t, kTables> entries;
+    for (uint32_t i = 0; i < kTables; ++i) entries[i] = bin * kContexts[i] + c.entry[i];
+    Mixer::Prediction made = mixer_.predict(entries, bin);
+    if (!uses(coding_tool::kMixing)) made.p1 = squash(made.input[0]);
+    return made;
+  }
 
   /// The low `count` bits of a value, most significant first.
   template <class Coder>
@@ -142,6 +181,7 @@ class MagnitudeModel {
     return ((uint64_t{1} << length) | mantissa << dropped) - 1;
   }
 
+  std::array<AdaptiveBit, kCalmClasses> calm_;
   Mixer mixer_;
   std::array<std::array<AdaptiveBit, kEscapeLengths>, kEscapeClasses> escape_;
 };

@@ -21,24 +21,26 @@ constexpr std::array<uint32_t, kStepLevels> make_step_table() {
 
 constexpr std::array<uint32_t, kStepLevels> kStepTable = make_step_table();
 
-void link_rings(PredictionGraph& graph) {
+RowLinks link_rings(const PredictionGraph& graph) {
+  RowLinks out;
   const uint32_t n = graph.size();
-  graph.link_begin.assign(n + 1, 0);
+  out.begin.assign(n + 1, 0);
   for (uint32_t r = 0; r < n; ++r) {
     const PredictionGraph::Row& row = graph.rows[r];
-    graph.link_begin[r + 1] += row.ring;
-    for (uint32_t i = 0; i < row.ring; ++i) ++graph.link_begin[row.neighbour[i] + 1];
+    out.begin[r + 1] += row.ring;
+    for (uint32_t i = 0; i < row.ring; ++i) ++out.begin[row.neighbour[i] + 1];
   }
-  for (uint32_t r = 0; r < n; ++r) graph.link_begin[r + 1] += graph.link_begin[r];
-  graph.links.resize(graph.link_begin[n]);
-  std::vector<uint32_t> next(graph.link_begin.begin(), graph.link_begin.end() - 1);
+  for (uint32_t r = 0; r < n; ++r) out.begin[r + 1] += out.begin[r];
+  out.links.resize(out.begin[n]);
+  std::vector<uint32_t> next(out.begin.begin(), out.begin.end() - 1);
   for (uint32_t r = 0; r < n; ++r) {
     const PredictionGraph::Row& row = graph.rows[r];
     for (uint32_t i = 0; i < row.ring; ++i) {
-      graph.links[next[r]++] = row.neighbour[i];
-      graph.links[next[row.neighbour[i]]++] = r;
+      out.links[next[r]++] = row.neighbour[i];
+      out.links[next[row.neighbour[i]]++] = r;
     }
   }
+  return out;
 }
 
 }  // namespace reeb

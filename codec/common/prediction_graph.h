@@ -32,10 +32,6 @@ struct PredictionGraph {
   std::vector<uint8_t>
       step_level;  ///< index into kStepTable: a row that predicts many gets a finer step
 
-  /// Rows joined by a ring in either direction; row r has links[link_begin[r] .. link_begin[r+1]).
-  std::vector<uint32_t> link_begin;
-  std::vector<uint32_t> links;
-
   uint32_t size() const { return static_cast<uint32_t>(rows.size()); }
 };
 
@@ -44,8 +40,12 @@ struct PredictionGraph {
 inline constexpr uint32_t kStepLevels = 192;
 extern const std::array<uint32_t, kStepLevels> kStepTable;
 
-/// Fills `link_begin` and `links` from the rings.
-void link_rings(PredictionGraph& graph);
+/// Rows joined by a ring in either direction; row r has links[begin[r] .. begin[r+1]).
+struct RowLinks {
+  std::vector<uint32_t> begin;
+  std::vector<uint32_t> links;
+};
+RowLinks link_rings(const PredictionGraph& graph);
 
 struct SurfaceGraph {
   PredictionGraph graph;

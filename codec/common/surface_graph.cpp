@@ -82,7 +82,6 @@ class SurfaceGraphBuilder {
       complete(order_[r], nearest);
       out.graph.rows[r] = make_row(r);
     }
-    link_rings(out.graph);
     out.order = std::move(order_);
     weigh_rows(points_, out);
     return out;

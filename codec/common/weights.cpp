@@ -1,61 +1,44 @@
 #include "codec/common/weights.h"
 
 #include <algorithm>
-#include <new>
+#include <cmath>
 
-#include "codec/common/batches.h"
-#include "codec/common/kernels.h"
 #include "codec/common/parallel.h"
 
 namespace reeb {
 
-struct WeightEstimator::Batches {
-  BatchVector<WeightBatch> items;
-  Kernels kernels = fastest_kernels();
-};
-
 namespace {
 
-void init_lane(WeightBatch& batch, uint32_t lane, uint32_t r, const PredictionGraph::Row& row,
+void init_lane(WeightBatch& batch, uint32_t lane, const PredictionGraph::Row& row,
                const WeightOptions& options) {
-  batch.self[lane] = r;
   batch.count = std::max(batch.count, uint32_t{row.count});
   for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
     const double deviation = i < row.ring ? options.ring_deviation : options.extra_deviation;
-    batch.neighbour[i][lane] = row.neighbour[i];
     batch.prior[i][lane] = static_cast<double>(row.prior[i]);
     batch.precision[i][lane] = static_cast<double>(row.precision[i]) / (deviation * deviation);
     batch.in_use[i][lane] = i < row.count ? 1.0 : 0.0;
   }
 }
 
-void fade(WeightBatch& batch, double factor) {
-  for (Lanes& entry : batch.matrix) entry *= factor;
-  for (Lanes& entry : batch.target) entry *= factor;
-}
-
-/// Rows batch * kLanes and on; lanes past the end repeat the last row, and their results are
-/// dropped.
-void init_batch(WeightBatch& batch, uint32_t index, const PredictionGraph& graph,
+void init_batch(WeightBatch& batch, const uint32_t rows[kLanes], const PredictionGraph& graph,
                 const WeightOptions& options) {
-  for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const uint32_t row = std::min(index * kLanes + lane, graph.size() - 1);
-    init_lane(batch, lane, row, graph.rows[row], options);
-  }
+  batch.count = 0;
+  for (uint32_t lane = 0; lane < kLanes; ++lane)
+    init_lane(batch, lane, graph.rows[rows[lane]], options);
 }
 
 /// The positions are exact to half a grid unit and to the surface's bending.
 void observe_batch(const PredictionGraph& graph, const GridPoints& points,
-                   const std::vector<uint32_t>& order, uint32_t index, const Kernels& kernels,
-                   WeightBatch& batch) {
+                   const std::vector<uint32_t>& order, const uint32_t rows[kLanes],
+                   const Kernels& kernels, WeightBatch& batch) {
   constexpr double kGridVariance = 0.25;  // of half a grid unit
   constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
   Lanes y[kMaxNeighbours][3] = {};
   Lanes inverse_noise{};
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const uint32_t r = batch.self[lane];
+    const uint32_t r = rows[lane];
     const PredictionGraph::Row& row = graph.rows[r];
-    if (row.count == 0 || index * kLanes + lane > r) continue;
+    if (row.count == 0) continue;
     int64_t spread = 0;
     for (uint32_t i = 0; i < row.count; ++i) {
       for (int a = 0; a < 3; ++a) {
@@ -70,6 +53,36 @@ void observe_batch(const PredictionGraph& graph, const GridPoints& points,
   kernels.observe_points(batch, y, inverse_noise);
 }
 
+/// All rows together are far larger than what the processor keeps at hand.
+void prefetch(const RowEquations& row) {
+  constexpr size_t kCacheLine = 64;
+  const auto* bytes = reinterpret_cast<const char*>(&row);
+  for (size_t at = 0; at < sizeof row; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
+}
+
+/// Weights of all rows from the reference, eight rows at a time. `done(batch, rows)` sees the
+/// equations of each eight.
+template <class Done>
+void solve_reference(const PredictionGraph& graph, const WeightOptions& options,
+                     const GridPoints& points, const std::vector<uint32_t>& order,
+                     const Kernels& kernels, std::vector<float>& weights, Done&& done) {
+  float dropped[kMaxNeighbours];
+  for (uint32_t first = 0; first < graph.size(); first += kLanes) {
+    WeightBatch batch{};
+    uint32_t rows[kLanes];
+    float* out[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) {
+      // Lanes past the end repeat the last row.
+      rows[l] = std::min(first + l, graph.size() - 1);
+      out[l] = first + l == rows[l] ? &weights[size_t{rows[l]} * kMaxNeighbours] : dropped;
+    }
+    init_batch(batch, rows, graph, options);
+    observe_batch(graph, points, order, rows, kernels, batch);
+    kernels.solve(batch, options.sum_to_one, out);
+    done(batch, rows);
+  }
+}
+
 }  // namespace
 
 WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptions& options,
@@ -77,69 +90,95 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
     : graph_(graph),
       options_(options),
       threads_(threads),
-      batches_(std::make_unique<Batches>()),
-      weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {
-  batches_->items.resize((graph.size() + kLanes - 1) / kLanes, WeightBatch{});
-  for (uint32_t b = 0; b < batches_->items.size(); ++b)
-    init_batch(batches_->items[b], b, graph, options);
-}
-
-WeightEstimator::~WeightEstimator() = default;
-
-WeightEstimator::WeightEstimator(const WeightEstimator& other)
-    : graph_(other.graph_),
-      options_(other.options_),
-      threads_(other.threads_),
-      batches_(std::make_unique<Batches>(*other.batches_)),
-      weights_(other.weights_) {}
+      equations_(graph.size()),
+      values_(size_t{graph.size()} * kObservations),
+      folded_(graph.size(), 0),
+      stale_(graph.size(), 1),
+      weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {}
 
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
-  for (uint32_t b = 0; b < batches_->items.size(); ++b)
-    observe_batch(graph_, points, order, b, batches_->kernels, batches_->items[b]);
+  const auto keep = [&](const WeightBatch& batch, const uint32_t rows[kLanes]) {
+    RowEquations* equations[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) equations[l] = &equations_[rows[l]];
+    kernels_.store_equations(batch, equations);
+  };
+  solve_reference(graph_, options_, points, order, kernels_, weights_, keep);
+  std::fill(stale_.begin(), stale_.end(), uint8_t{0});
 }
 
-void WeightEstimator::observe(const float* values, double noise) {
-  pending_.push_back({values, 1.0 / noise});
-}
-
-void WeightEstimator::solve(double fading) {
-  float dropped[kMaxNeighbours];
-  const auto count = static_cast<uint32_t>(batches_->items.size());
-  parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t b = begin; b < end; ++b) {
-      WeightBatch& batch = batches_->items[b];
-      for (const Observation& o : pending_) {
-        batches_->kernels.accumulate(batch, o.values, o.inverse_noise, options_.sum_to_one);
-      }
-      if (fading != 1) fade(batch, fading);
-      float* out[kLanes];
-      for (uint32_t l = 0; l < kLanes; ++l) {
-        const uint32_t row = b * kLanes + l;
-        out[l] = row < graph_.size() ? &weights_[size_t{row} * kMaxNeighbours] : dropped;
-      }
-      batches_->kernels.solve(batch, options_.sum_to_one, out);
+void WeightEstimator::observe(const std::vector<float>& values,
+                              const std::vector<uint32_t>& residuals, double noise) {
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    values_[size_t{r} * kObservations + observations_] = values[r];
+    if (residuals[r] != 0) stale_[r] = 1;
+  }
+  scale_[observations_++] = 1.0 / std::sqrt(noise);
+  if (observations_ < kObservations) return;
+  parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t r = begin; r < end; ++r) {
+      if (r + 1 < end) prefetch(equations_[r + 1]);
+      fold(r);
     }
   });
-  pending_.clear();
+  std::fill(folded_.begin(), folded_.end(), uint8_t{0});
+  observations_ = 0;
+}
+
+void WeightEstimator::fold(uint32_t r) {
+  const PredictionGraph::Row& row = graph_.rows[r];
+  if (folded_[r] == observations_) return;
+  kernels_.fold(equations_[r], {values_.data(), scale_, row.neighbour.data(), row.count, r,
+                                folded_[r], observations_, options_.sum_to_one});
+  folded_[r] = static_cast<uint8_t>(observations_);
+}
+
+void WeightEstimator::fade(double factor) {
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    fold(r);
+    for (Lanes& entries : equations_[r].strip) entries *= factor;
+    for (double& entry : equations_[r].target) entry *= factor;
+  }
+  std::fill(stale_.begin(), stale_.end(), uint8_t{1});
+}
+
+void WeightEstimator::solve() {
+  std::vector<uint32_t> rows;
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    if (stale_[r] != 0) rows.push_back(r);
+  }
+  std::fill(stale_.begin(), stale_.end(), uint8_t{0});
+  const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
+  parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
+      solve(&rows[first], std::min(kLanes, static_cast<uint32_t>(rows.size()) - first));
+  });
+}
+
+void WeightEstimator::solve(const uint32_t* rows, uint32_t count) {
+  float dropped[kMaxNeighbours];
+  const RowEquations* equations[kLanes];
+  uint32_t row[kLanes];
+  float* out[kLanes];
+  for (uint32_t l = 0; l < kLanes; ++l) {
+    // Lanes past the end repeat the last row; their results are dropped.
+    row[l] = rows[std::min(l, count - 1)];
+    if (l + 1 < count) prefetch(equations_[rows[l + 1]]);
+    if (l < count) fold(row[l]);
+    equations[l] = &equations_[row[l]];
+    out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;
+  }
+  WeightBatch batch;
+  init_batch(batch, row, graph_, options_);
+  kernels_.load_equations(batch, equations);
+  kernels_.solve(batch, options_.sum_to_one, out);
 }
 
 std::vector<float> reference_weights(const PredictionGraph& graph, const WeightOptions& options,
                                      const GridPoints& points, const std::vector<uint32_t>& order) {
-  const Kernels kernels = fastest_kernels();
   std::vector<float> weights(size_t{graph.size()} * kMaxNeighbours, 0.0f);
-  float dropped[kMaxNeighbours];
-  for (uint32_t b = 0; b * kLanes < graph.size(); ++b) {
-    WeightBatch batch{};
-    init_batch(batch, b, graph, options);
-    observe_batch(graph, points, order, b, kernels, batch);
-    float* out[kLanes];
-    for (uint32_t l = 0; l < kLanes; ++l) {
-      const uint32_t row = b * kLanes + l;
-      out[l] = row < graph.size() ? &weights[size_t{row} * kMaxNeighbours] : dropped;
-    }
-    kernels.solve(batch, options.sum_to_one, out);
-  }
+  solve_reference(graph, options, points, order, fastest_kernels(), weights,
+                  [](const WeightBatch&, const uint32_t*) {});
   return weights;
 }
 

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "codec/common/batches.h"
 #include "codec/common/grid.h"
+#include "codec/common/kernels.h"
 #include "codec/common/prediction_graph.h"
 
 namespace reeb {
@@ -21,41 +22,49 @@ struct WeightOptions {
 /// Weights minimise sum_o (sum_i w_i y_oi - t_o)^2 / noise_o + sum_i (w_i - prior_i)^2 /
 /// deviation_i^2. All of it in binary64, in the order that spec/prediction.md fixes, rounded once
 /// to binary32.
+///
+/// A row that its weights have predicted without error keeps them: what it has observed since
+/// agrees with them, so that they are the minimum still. The others are *stale*.
 class WeightEstimator {
  public:
   /// `graph` must outlive the estimator. `threads` >= 1; the weights do not depend on it.
   WeightEstimator(const PredictionGraph& graph, const WeightOptions& options, unsigned threads);
-  ~WeightEstimator();
-  /// Pre-condition of a copy: nothing is observed that is not solved for.
-  WeightEstimator(const WeightEstimator& other);
+  WeightEstimator(const WeightEstimator& other) = default;
   WeightEstimator& operator=(const WeightEstimator&) = delete;
 
   /// Learns from the reference positions, taken as exact to half a grid unit and to the surface's
-  /// bending. `order[row]` is the row's point.
+  /// bending, and solves for all rows. `order[row]` is the row's point. Pre-condition: nothing is
+  /// observed yet.
   void observe_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
   /// Learns from one decoded component (`values`, one per row), whose residuals had the given
-  /// variance. The values must stay where they are until the next `solve`.
-  void observe(const float* values, double noise);
+  /// variance. Rows whose `residuals` are not 0 become stale.
+  void observe(const std::vector<float>& values, const std::vector<uint32_t>& residuals,
+               double noise);
 
-  /// Brings the weights up to date with all observations, which from then on count `fading` times
-  /// as much.
-  void solve(double fading = 1);
+  /// Lets all that is observed count `factor` times as much; all rows become stale.
+  void fade(double factor);
+
+  /// Brings the weights of stale rows up to date; at first all are.
+  void solve();
 
   /// kMaxNeighbours weights of a row; 0 for padding.
   const float* weights(uint32_t row) const { return &weights_[size_t{row} * kMaxNeighbours]; }
 
  private:
-  struct Batches;
-  struct Observation {
-    const float* values;
-    double inverse_noise;
-  };
+  void fold(uint32_t row);
+  void solve(const uint32_t* rows, uint32_t count);
+
   const PredictionGraph& graph_;
   WeightOptions options_;
   unsigned threads_;
-  std::unique_ptr<Batches> batches_;
-  std::vector<Observation> pending_;
+  Kernels kernels_ = fastest_kernels();
+  BatchVector<RowEquations> equations_;
+  std::vector<float> values_;         ///< [row][observation]: the last ones
+  double scale_[kObservations] = {};  ///< 1 / sqrt(noise) of each
+  uint32_t observations_ = 0;         ///< that are in `values_`
+  std::vector<uint8_t> folded_;       ///< of these, those in the row's equations
+  std::vector<uint8_t> stale_;
   std::vector<float> weights_;
 };
 

@@ -41,15 +41,14 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
 
 // The estimator and its weights, what contexts look back on, and the contexts themselves.
 uint64_t state_memory(uint64_t vertices) {
-  constexpr uint64_t kBytesPerStateRow = sizeof(WeightBatch) / kLanes + 192;
-  return (vertices + kLanes) * kBytesPerStateRow + sizeof(MagnitudeModel) + sizeof(Field);
+  constexpr uint64_t kBytesPerStateRow = sizeof(RowEquations) + 256;
+  return vertices * kBytesPerStateRow + sizeof(MagnitudeModel) + sizeof(Field);
 }
 
 uint64_t kept_memory(const DecodedSurface& s) {
   const PredictionGraph& graph = s.surface.graph;
   return sizeof(DecodedSurface) + bytes_of(s.grid) + bytes_of(s.weights) + bytes_of(s.output) +
-         bytes_of(s.surface.order) + bytes_of(graph.rows) + bytes_of(graph.step_level) +
-         bytes_of(graph.link_begin) + bytes_of(graph.links);
+         bytes_of(s.surface.order) + bytes_of(graph.rows) + bytes_of(graph.step_level);
 }
 
 uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {

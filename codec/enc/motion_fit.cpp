@@ -82,7 +82,7 @@ Eigen::VectorXd MotionFit::target(uint32_t row) const {
 }
 
 void MotionFit::fit_weights() {
-  const PredictionGraph& graph = surface_.surface.graph;
+  const RowLinks links = link_rings(surface_.surface.graph);
   const std::vector<RegionBinding> before = model_.bindings();
   for (uint32_t row = 0; row < surface_.rows(); ++row) {
     RegionBinding& binding = model_.bindings()[row];
@@ -90,8 +90,8 @@ void MotionFit::fit_weights() {
     Eigen::VectorXd
         residual;  // of the primary region alone; computed where there is a neighbour region
     double best = 0;
-    for (uint32_t i = graph.link_begin[row]; i < graph.link_begin[row + 1]; ++i) {
-      const RegionBinding& other = before[graph.links[i]];
+    for (uint32_t i = links.begin[row]; i < links.begin[row + 1]; ++i) {
+      const RegionBinding& other = before[links.links[i]];
       for (const uint32_t region : {other.primary, other.secondary}) {
         if (region == binding.primary || (region == other.secondary && other.weight == 0)) continue;
         if (residual.size() == 0) {

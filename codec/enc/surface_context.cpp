@@ -50,7 +50,6 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
   if (!status.ok()) return status;
   if (options.plain) {
     out.surface = std::move(out.mesh.surface);
-    link_rings(out.surface.graph);
     out.weights =
         reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
                           out.points(), out.surface.order);

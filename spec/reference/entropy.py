@@ -71,6 +71,25 @@ class AdaptiveBit:
         return bit
 
 
+class ShortBit:
+    """Section 2."""
+    __slots__ = ("p", "n")
+
+    def __init__(self):
+        self.p = 1 << 15
+        self.n = 0
+
+    def p1(self):
+        return clamp(self.p, 32, 65504)
+
+    def update(self, bit, limit):
+        target = 65535 if bit else 0
+        rate = (1 << 16) // (2 * self.n + 3)
+        self.p += ((target - self.p) * rate) >> 15
+        if self.n < limit:
+            self.n += 1
+
+
 def adaptive_bits(count):
     return [AdaptiveBit() for _ in range(count)]
 
@@ -127,11 +146,11 @@ STRETCH = make_stretch()
 
 
 class Mixer:
-    """Section 4. table_sizes: entries of each table."""
+    """Section 4. table_sizes: entries of each table, which are of class `bit`."""
 
-    def __init__(self, table_sizes, sets, limit):
+    def __init__(self, table_sizes, sets, limit, bit=AdaptiveBit):
         count = len(table_sizes)
-        self.table = [adaptive_bits(size) for size in table_sizes]
+        self.table = [[bit() for _ in range(size)] for size in table_sizes]
         self.weight = [[72089 // count] * count for _ in range(sets)]
         self.limit = limit
 

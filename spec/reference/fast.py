@@ -4,7 +4,7 @@ import math
 from .arithmetic import f32, floor_log2, product32, sum32
 from .errors import require
 from .lanes import LaneSection
-from .surface import STEPS, Distances, Row, link, make_row, set_step_levels
+from .surface import STEPS, Distances, Row, make_row, set_step_levels
 from .weights import COEFFICIENT_WEIGHTS, RowWeights
 
 LIST = 16
@@ -205,7 +205,7 @@ def build_fast_graph(grid, order):
     for v, neighbours, ring in zip(order.order, order.neighbours, order.ring):
         vertices = [order.order[k] for k in neighbours]
         rows.append(make_row(v, vertices[:ring], vertices[ring:], rank, distances))
-    set_step_levels(link(rows))
+    set_step_levels(rows)
     return rows, order.order
 
 

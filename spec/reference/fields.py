@@ -2,9 +2,9 @@
 import math
 from dataclasses import dataclass
 
-from .arithmetic import f32, floor_log2, log2_5, product32, sum32
+from .arithmetic import f32, log2_5, product32, sum32
 from .container import MAIN, THESIS
-from .entropy import EVEN, Mixer, RangeDecoder, adaptive_bits
+from .entropy import EVEN, Mixer, RangeDecoder, ShortBit, adaptive_bits
 from .errors import require
 from .surface import STEPS
 from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, RowWeights, WeightOptions, due
@@ -25,7 +25,7 @@ COEFFICIENTS = {
 }
 BASIS = FieldOptions(BASIS_WEIGHTS, True, True, 0.5, 0.05)
 
-TABLE_CONTEXTS = (256, 32, 192, 96, 192, 320, 256, 256)
+TABLE_CONTEXTS = (144, 24, 96, 144)
 BINS = 24
 
 
@@ -38,36 +38,39 @@ def classify(x, c, s):
 class Surroundings:
     """Section 3."""
     ring_mean: int
-    ring_max: int
     extra_mean: int
-    history: int
-    ring_history: int
-    last: int
-    running: int
     recent: int
-    level: int
-    component: int
+    history: int
+    last: int
+    step: int
+
+    def expected(self):
+        return 3 * self.ring_mean + 2 * self.extra_mean + 3 * self.recent + 8 * self.history
+
+    def calm_class(self):
+        """None where the row is not calm."""
+        third = self.step >> 8
+        c = sum(self.expected() >= i * third for i in (1, 2, 3))
+        return c if c < 3 else None
 
 
 class Contexts:
     """Section 3, second half."""
 
     def __init__(self, s):
-        near = (2 * s.ring_mean + s.history + s.recent) // 4
-        everything = (3 * s.ring_mean + 2 * s.extra_mean + 4 * s.recent + s.running + 5 * s.history +
-                      3 * s.ring_history) // 18
+        def relative(x):
+            return min((x << 16) // s.step, 1 << 24)
+
+        ring = relative(s.ring_mean)
+        recent = relative(s.recent)
+        expected = relative(s.expected() // 16)
         self.tables = (
-            classify(s.ring_mean, 16, 8) * 16 + classify(s.history, 16, 8),
-            classify(near, 32, 12),
-            classify(s.ring_history, 16, 8) * 12 + classify(s.running, 12, 6),
-            classify(s.ring_max, 12, 6) * 8 + s.level,
-            classify(everything, 24, 10) * 8 + s.level,
-            min(31, s.component) * 10 + classify(everything, 10, 5),
-            classify(s.recent, 16, 8) * 16 + classify(s.last, 16, 8),
-            classify(s.extra_mean, 16, 8) * 16 + classify((s.ring_mean + s.recent) // 2, 16, 8),
+            classify(ring, 12, 6) * 12 + classify(relative(s.history), 12, 6),
+            classify(expected, 24, 8),
+            classify(recent, 8, 4) * 12 + classify(relative(s.last), 12, 6),
+            classify(relative(s.extra_mean), 12, 6) * 12 + classify((ring + recent) // 2, 12, 6),
         )
-        self.weight_class = classify(everything, 6, 5)
-        self.escape_class = classify(near, 8, 3)
+        self.escape_class = classify(expected, 8, 3)
 
 
 class ResidualDecoder:
@@ -76,15 +79,21 @@ class ResidualDecoder:
     def __init__(self, data, before=None):
         self.decoder = RangeDecoder(data)
         if before is not None:
-            self.mixer, self.escape = before.mixer, before.escape
+            self.mixer, self.calm, self.escape = before.mixer, before.calm, before.escape
             return
-        self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS * 6, 100)
+        self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS, 40, ShortBit)
+        self.calm = adaptive_bits(3)
         self.escape = [adaptive_bits(55) for _ in range(8)]
 
-    def decode(self, contexts):
+    def decode(self, surroundings):
         b = 0
-        while b < BINS and self.mixer.decode(self.decoder, [context * BINS + b for context in contexts.tables],
-                                             b * 6 + contexts.weight_class):
+        calm_class = surroundings.calm_class()
+        if calm_class is not None:
+            if not self.calm[calm_class].decode(self.decoder):
+                return 0
+            b = 1
+        contexts = Contexts(surroundings)
+        while b < BINS and self.mixer.decode(self.decoder, [context * BINS + b for context in contexts.tables], b):
             b += 1
         if b == 0:
             return 0
@@ -114,8 +123,6 @@ class Field:
         self.magnitude = [0] * len(rows)
         self.last = [0] * len(rows)
         self.history = [0] * len(rows)
-        self.ring_history = [0] * len(rows)
-        self.running = 0
         self.recent = 0
         self.planes = []
         self.weights = []
@@ -127,10 +134,9 @@ class Field:
         elif options.predict:
             self.weights = [RowWeights(rows, r, options.weights) for r in range(len(rows))]
             for weights in self.weights:
-                weights.solve()
                 if positions is not None:
                     weights.observe_reference(positions)
-                    weights.solve()
+                weights.solve()
 
     def decode_component(self, k):
         """Section 1."""
@@ -139,7 +145,7 @@ class Field:
         energy = 0.0
         for r, row in enumerate(self.rows):
             step = STEPS[row.step_level] if self.options.predict else 65536
-            n = self.residuals.decode(Contexts(self.surroundings(r, step, k)))
+            n = self.residuals.decode(self.surroundings(r, step))
             correction = product32(f32(n), f32(step / 65536))
             plane[r] = sum32(self.prediction(r, plane), correction)
             require(math.isfinite(plane[r]), "a value is beyond binary32")
@@ -160,34 +166,28 @@ class Field:
             s[i % 4] = sum32(s[i % 4], product32(w[i], plane[n]))
         return sum32(sum32(s[0], s[1]), sum32(s[2], s[3]))
 
-    def surroundings(self, r, step, k):
+    def surroundings(self, r, step):
         """Section 3, first half."""
         row = self.rows[r]
         ring = [self.magnitude[n] for n in row.neighbours[:row.ring]]
         others = [self.magnitude[n] for n in row.neighbours[row.ring:]]
 
-        def relative(x):
-            return min((x << 16) // step, 1 << 24)
+        def mean(values):
+            return sum(values) * (65536 // len(values)) >> 16
 
-        ring_mean = relative(sum(ring) // len(ring)) if ring else 0
+        ring_mean = mean(ring) if ring else 0
         return Surroundings(
             ring_mean=ring_mean,
-            ring_max=relative(max(ring)) if ring else 0,
-            extra_mean=relative(sum(others) // len(others)) if others else ring_mean,
-            history=relative(self.history[r]),
-            ring_history=relative(self.ring_history[r]),
-            last=relative(self.last[r]),
-            running=relative(self.running // 32),
-            recent=relative(self.recent // 4),
-            level=min(7, floor_log2(max(1, len(self.rows) // (r + 1)))),
-            component=k)
+            extra_mean=mean(others) if others else ring_mean,
+            recent=self.recent // 4,
+            history=self.history[r],
+            last=self.last[r],
+            step=step)
 
     def note(self, r, n, step):
         """Section 5."""
         magnitude = min((min(abs(n), 1 << 32) * step) >> 8, 1 << 24)
         self.magnitude[r] = magnitude
-        self.running += magnitude
-        self.running -= self.running // 32
         self.recent += magnitude
         self.recent -= self.recent // 4
 
@@ -195,17 +195,15 @@ class Field:
         """Section 5."""
         rows = self.rows
         self.history = [(h * 154 + m * 102) >> 8 for h, m in zip(self.history, self.magnitude)]
-        self.ring_history = [sum(self.history[n] for n in row.links) // len(row.links) if row.links else 0
-                             for row in rows]
         self.last = self.magnitude
         self.magnitude = [0] * len(rows)
-        self.running = self.recent = 0
+        self.recent = 0
         if not self.options.adapt:
             return
         noise = self.options.noise_share * (energy / (len(rows) - len(rows) // 4)) + self.options.noise_floor
-        for weights in self.weights:
-            weights.observe(self.planes[-1], noise)
-            if due(k):
+        for weights, magnitude in zip(self.weights, self.last):
+            weights.observe(self.planes[-1], noise, magnitude != 0)
+            if due(k) and weights.stale:
                 weights.solve()
 
 

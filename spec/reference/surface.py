@@ -13,15 +13,6 @@ class Row:
         self.prior = prior
         self.precision = precision
         self.step_level = step_level
-        self.links = []
-
-
-def link(rows):
-    for r, row in enumerate(rows):
-        for n in row.neighbours[:row.ring]:
-            row.links.append(n)
-            rows[n].links.append(r)
-    return rows
 
 
 class Distances:
@@ -224,5 +215,5 @@ def build_surface_graph(grid, triangles):
         near, beyond = ring.get(v, []), far.get(v, [])
         complete_neighbours(v, near, beyond, order[:r], distances, v in boundary)
         rows.append(make_row(v, near, beyond, rank, distances))
-    set_step_levels(link(rows))
+    set_step_levels(rows)
     return rows, order

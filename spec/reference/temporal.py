@@ -1,5 +1,5 @@
 """prediction.md section 4: the temporal graph of a group."""
-from .surface import Row, link
+from .surface import Row
 
 
 def instants(frames):
@@ -41,4 +41,4 @@ def build_temporal_graph(frames):
                 neighbours += [rank[left[0], b] for b in range(3) if b != axis]
             extra = len(neighbours) - ring
             rows.append(Row(neighbours, ring, priors(left, right) + [0.0] * extra, [1.0] * len(neighbours)))
-    return link(rows), order
+    return rows, order

@@ -1,4 +1,6 @@
 """prediction.md section 5: weights of a row. All in binary64."""
+import math
+
 from .arithmetic import f32
 
 
@@ -37,6 +39,7 @@ class RowWeights:
             deviation = options.ring_deviation if i < self.row.ring else options.extra_deviation
             self.precision.append(self.row.precision[i] / (deviation * deviation))
         self.w = []
+        self.stale = True
 
     def observe_reference(self, positions):
         """positions: grid position of every row."""
@@ -51,18 +54,19 @@ class RowWeights:
                 product = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2]
                 self.M[i][j] = self.M[i][j] + product * inverse_noise
 
-    def observe(self, plane, noise):
-        inverse_noise = 1 / noise
+    def observe(self, plane, noise, mended):
+        """mended: whether the row had a residual."""
+        scale = 1 / math.sqrt(noise)
         t = plane[self.index]
         to_one = self.options.sum_to_one
-        y = [plane[k] - t if to_one else plane[k] for k in self.row.neighbours]
+        y = [(plane[k] - t if to_one else plane[k]) * scale for k in self.row.neighbours]
         for i in range(self.n):
-            s = y[i] * inverse_noise
             M = self.M[i]
             for j in range(i + 1):
-                M[j] = M[j] + s * y[j]
+                M[j] = M[j] + y[i] * y[j]
             if not to_one:
-                self.T[i] = self.T[i] + s * t
+                self.T[i] = self.T[i] + y[i] * (t * scale)
+        self.stale = self.stale or mended
 
     def forget(self):
         """fields.md section 6."""
@@ -82,6 +86,7 @@ class RowWeights:
             substitute(A, inverse, b)
             constrain(w, b)
         self.w = [f32(x) for x in w]
+        self.stale = False
 
 
 def factorise(A):

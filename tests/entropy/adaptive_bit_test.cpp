@@ -89,3 +89,36 @@ TEST_CASE("encoder and decoder learn the same", "[adaptive_bit]") {
   // The entropy at 0.1 is 0.469 bits a decision; learning at a rate of 1/100 costs a few per cent.
   CHECK(static_cast<double>(bytes.size()) * 8 / 5000 < 0.469 * 1.1);
 }
+
+TEST_CASE("a short bit learns nearly what an adaptive bit does", "[adaptive_bit]") {
+  CHECK(ShortBit().p1() == kEvenOdds);
+  for (const double frequency : {0.02, 0.3, 0.5, 0.8, 0.99}) {
+    std::mt19937 random(11);
+    std::bernoulli_distribution draw(frequency);
+    AdaptiveBit exact;
+    ShortBit bit;
+    for (int i = 0; i < 20'000; ++i) {
+      const bool value = draw(random);
+      exact.update(value, 40);
+      bit.update(value, 40);
+      // Steps are rounded down to 1/65536, of which the rate forgets 1 in 41.
+      REQUIRE(std::abs(int{bit.p1()} - int{exact.p1()}) <= 64);
+    }
+  }
+}
+
+TEST_CASE("a short bit is never certain and always recovers", "[adaptive_bit]") {
+  for (const bool value : {false, true}) {
+    for (const uint32_t limit : {1u, 40u, 255u}) {
+      ShortBit bit;
+      for (int i = 0; i < 10'000; ++i) {
+        bit.update(value, limit);
+        REQUIRE(bit.p1() >= 32);
+        REQUIRE(bit.p1() <= 65504);
+      }
+      CHECK((value ? bit.p1() > 65'000 : bit.p1() < 536));
+      for (uint32_t i = 0; i < 8 * (limit + 2); ++i) bit.update(!value, limit);
+      CHECK((value ? bit.p1() < 536 : bit.p1() > 65'000));
+    }
+  }
+}

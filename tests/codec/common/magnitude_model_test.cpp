@@ -17,12 +17,10 @@ Surroundings random_surroundings(std::mt19937& random) {
   const auto any = [&] { return static_cast<uint32_t>(random() & 0xFFFFFF) >> random() % 25; };
   Surroundings s;
   s.ring_mean = any();
-  s.ring_max = any();
+  s.extra_mean = any();
+  s.recent = any();
   s.history = any();
-  s.ring_history = any();
-  s.running = any();
-  s.level = static_cast<uint32_t>(random() % 8);
-  s.component = static_cast<uint32_t>(random() % 300);
+  s.last = any();
   return s;
 }
 
@@ -105,7 +103,7 @@ TEST_CASE("surroundings that tell the size are made use of", "[magnitude_model]"
     const bool large = random() % 2 == 0;
     const int64_t value = std::lround(normal(random) * (large ? 8 : 0.3));
     Surroundings s;
-    s.ring_mean = s.ring_max = s.history = s.ring_history = s.running = large ? 1600 : 20;
+    s.ring_mean = s.extra_mean = s.recent = s.history = s.last = large ? 1600 : 20;
     informed.push_back({s, value});
     blind.push_back({{}, value});
   }

@@ -85,8 +85,9 @@ std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsi
                             bool reference = false) {
   WeightEstimator estimator(f.surface.graph, options, threads);
   if (reference) estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
+  const std::vector<uint32_t> residuals(f.surface.graph.size(), 1);
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    estimator.observe(f.planes[o].data(), f.noise[o]);
+    estimator.observe(f.planes[o], residuals, f.noise[o]);
     if (o % 2 == 1) estimator.solve();  // observations add up over several solves
   }
   estimator.solve();
@@ -98,26 +99,35 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-/// Eight rows at work, from the first batch of the fixture on.
+/// Eight rows at work, from row 40 of the fixture on.
 std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool sum_to_one) {
+  const auto observations = static_cast<uint32_t>(f.planes.size());
+  std::vector<float> values(f.planes[0].size() * kObservations);
+  std::vector<double> scale;
+  for (uint32_t o = 0; o < observations; ++o) {
+    for (size_t r = 0; r < f.planes[o].size(); ++r) values[r * kObservations + o] = f.planes[o][r];
+    scale.push_back(1 / std::sqrt(f.noise[o]));
+  }
   std::vector<float> out(kLanes * kMaxNeighbours, 0.0f);
   auto batch = std::make_unique<WeightBatch>();
+  std::vector<RowEquations> equations(kLanes);
+  const RowEquations* rows[kLanes];
+  float* lanes[kLanes];
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
     const uint32_t r = 40 + lane * 3;
     const PredictionGraph::Row& row = f.surface.graph.rows[r];
-    batch->self[lane] = r;
     batch->count = std::max(batch->count, uint32_t{row.count});
     for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
-      batch->neighbour[i][lane] = row.neighbour[i];
       batch->prior[i][lane] = static_cast<double>(row.prior[i]);
       batch->precision[i][lane] = 0.7 + 0.1 * i;
       batch->in_use[i][lane] = i < row.count ? 1 : 0;
     }
+    kernels.fold(equations[lane], {values.data(), scale.data(), row.neighbour.data(), row.count, r,
+                                   1, observations, sum_to_one});
+    rows[lane] = &equations[lane];
+    lanes[lane] = &out[lane * kMaxNeighbours];
   }
-  for (size_t o = 0; o < f.planes.size(); ++o)
-    kernels.accumulate(*batch, f.planes[o].data(), 1 / f.noise[o], sum_to_one);
-  float* lanes[kLanes];
-  for (uint32_t lane = 0; lane < kLanes; ++lane) lanes[lane] = &out[lane * kMaxNeighbours];
+  kernels.load_equations(*batch, rows);
   kernels.solve(*batch, sum_to_one, lanes);
   return out;
 }
@@ -212,6 +222,48 @@ TEST_CASE("values of any size leave finite weights", "[weights]") {
   }
   for (const bool sum_to_one : {false, true}) {
     for (const float w : estimate(f, {.sum_to_one = sum_to_one}, 1)) REQUIRE(std::isfinite(w));
+  }
+}
+
+TEST_CASE("weights of rows predicted without error need not be solved for", "[weights]") {
+  const Fixture f(torus(16, 11), 40);
+  WeightEstimator lazy(f.surface.graph, {}, 1);
+  WeightEstimator eager(f.surface.graph, {}, 1);
+  std::mt19937 random(9);
+  const uint32_t rows = f.surface.graph.size();
+  for (size_t o = 0; o < f.planes.size(); ++o) {
+    lazy.solve();
+    eager.solve();
+    std::vector<float> plane(rows);
+    std::vector<uint32_t> residuals(rows);
+    for (uint32_t r = 0; r < rows; ++r) {
+      const PredictionGraph::Row& row = f.surface.graph.rows[r];
+      for (uint32_t i = 0; i < row.count; ++i)
+        plane[r] += lazy.weights(r)[i] * plane[row.neighbour[i]];
+      residuals[r] = r < 20 || random() % 8 == 0 ? 1 : 0;
+      if (residuals[r] != 0) plane[r] += std::round(f.planes[o][r]);
+    }
+    lazy.observe(plane, residuals, f.noise[o]);
+    eager.observe(plane, std::vector<uint32_t>(rows, 1), f.noise[o]);
+    for (size_t i = 0; i < size_t{rows} * kMaxNeighbours; ++i)
+      REQUIRE(lazy.weights(0)[i] == Approx(eager.weights(0)[i]).margin(1e-4));
+  }
+}
+
+TEST_CASE("faded observations count less", "[weights]") {
+  Fixture f(torus(16, 11));
+  WeightEstimator faded(f.surface.graph, {}, 1);
+  const std::vector<uint32_t> residuals(f.surface.graph.size(), 0);
+  for (size_t o = 0; o < f.planes.size(); ++o) {
+    faded.observe(f.planes[o], residuals, f.noise[o]);
+    f.noise[o] *= 4;
+  }
+  faded.fade(0.25);
+  faded.solve();
+  for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
+    const Eigen::VectorXd expected = best_weights(f, r, {});
+    for (uint32_t i = 0; i < f.surface.graph.rows[r].count; ++i)
+      REQUIRE(static_cast<double>(faded.weights(r)[i]) == Approx(expected[i]).margin(2e-6));
   }
 }
 

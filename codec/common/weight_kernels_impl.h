@@ -1,0 +1,231 @@
+// Bodies of the kernels that estimate weights; see kernels_impl.h.
+#pragma once
+
+#include <cstring>
+
+#include "codec/common/kernels.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
+
+namespace reeb::REEB_KERNEL_NAMESPACE {
+
+namespace {
+
+#if defined(__AVX512F__)
+constexpr uint32_t kFloats = 16;
+#elif defined(__AVX__)
+constexpr uint32_t kFloats = 8;
+#else
+constexpr uint32_t kFloats = 4;
+#endif
+/// A vector register of floats.
+using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
+
+/// Eight floats, however many registers that takes.
+using Floats8 = float __attribute__((vector_size(8 * sizeof(float))));
+
+/// out[i][l] = in[l][i].
+template <class Vector>
+inline void transpose(const Vector* in, Vector* out) {
+  Vector a[8];
+  Vector b[8];
+  for (uint32_t i = 0; i < 4; ++i) {
+    a[2 * i] = __builtin_shufflevector(in[i], in[i + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+    a[2 * i + 1] = __builtin_shufflevector(in[i], in[i + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+  }
+  // a[2 i + h] holds elements 4 h .. 4 h + 3 of the vectors i and i + 4, by turns.
+  for (uint32_t h = 0; h < 2; ++h) {
+    for (uint32_t i = 0; i < 2; ++i) {
+      const Vector x = a[2 * i + h];
+      const Vector y = a[2 * i + 4 + h];
+      b[4 * h + 2 * i] = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
+      b[4 * h + 2 * i + 1] = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+  }
+  // b[4 h + 2 i + g] holds elements 4 h + 2 g, + 1 of the vectors i, i + 2, i + 4, i + 6, by turns.
+  for (uint32_t h = 0; h < 2; ++h) {
+    for (uint32_t g = 0; g < 2; ++g) {
+      const Vector x = b[4 * h + g];
+      const Vector y = b[4 * h + 2 + g];
+      out[4 * h + 2 * g] = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
+      out[4 * h + 2 * g + 1] = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+  }
+}
+
+inline Floats8 load8(const float* from) {
+  Floats8 out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
+/// Calls function(strip, i, j) for the strips of the matrix that are in use: row i, columns j and
+/// on.
+template <class Function>
+inline void for_each_strip(uint32_t n, Function function) {
+  for (uint32_t i = 0; i < n; ++i) function(i, i, 0u);
+  for (uint32_t i = 8; i < n; ++i) function(i + 8, i, 8u);
+}
+
+void load_equations(WeightBatch& batch, const RowEquations* const rows[kLanes]) {
+  Lanes in[8];
+  Lanes out[8];
+  for_each_strip(batch.count, [&](uint32_t strip, uint32_t i, uint32_t j) {
+    for (uint32_t l = 0; l < kLanes; ++l) in[l] = rows[l]->strip[strip];
+    transpose(in, out);
+    for (uint32_t k = j; k <= i && k < j + 8; ++k) batch.matrix[packed(i, k)] = out[k - j];
+  });
+  for (uint32_t i = 0; i < batch.count; ++i) {
+    for (uint32_t l = 0; l < kLanes; ++l) batch.target[i][l] = rows[l]->target[i];
+  }
+}
+
+void store_equations(const WeightBatch& batch, RowEquations* const rows[kLanes]) {
+  Lanes in[8] = {};
+  Lanes out[8];
+  for_each_strip(batch.count, [&](uint32_t strip, uint32_t i, uint32_t j) {
+    for (uint32_t k = j; k <= i && k < j + 8; ++k) in[k - j] = batch.matrix[packed(i, k)];
+    transpose(in, out);
+    for (uint32_t l = 0; l < kLanes; ++l) rows[l]->strip[strip] = out[l];
+  });
+}
+
+/// What the neighbours of a row say of it, scaled y[observation][neighbour], and its own values.
+struct Said {
+  alignas(64) double y[kObservations][kMaxNeighbours];
+  double self[kObservations];
+};
+
+inline void collect(const FoldTask& task, Said& said) {
+  for (uint32_t o = task.begin / 8 * 8; o < task.end; o += 8) {
+    const Floats8 self = load8(task.values + size_t{task.row} * kObservations + o);
+    for (uint32_t k = 0; k < 8; ++k) said.self[o + k] = static_cast<double>(self[k]);
+    const Floats8 padding = task.sum_to_one ? self : Floats8{};
+    for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
+      Floats8 in[8];
+      Floats8 out[8];
+      for (uint32_t k = 0; k < 8; ++k) {
+        const bool used = i + k < task.count;
+        in[k] =
+            used ? load8(task.values + size_t{task.neighbour[i + k]} * kObservations + o) : padding;
+      }
+      transpose(in, out);
+      for (uint32_t k = 0; k < 8; ++k) {
+        const Lanes value = __builtin_convertvector(out[k], Lanes);
+        const Lanes y = (task.sum_to_one ? value - said.self[o + k] : value) * task.scale[o + k];
+        std::memcpy(&said.y[o + k][i], &y, sizeof y);
+      }
+    }
+  }
+}
+
+/// Adds to kRows strips, which are rows i and on of the columns j and on.
+constexpr uint32_t kRows = kFloats / 2;  // all sums stay in registers
+inline void add_outer(Lanes* strip, const FoldTask& task, const Said& said, uint32_t i,
+                      uint32_t j) {
+  Lanes sum[kRows];
+  for (uint32_t k = 0; k < kRows; ++k) sum[k] = strip[k];
+  for (uint32_t o = task.begin; o < task.end; ++o) {
+    Lanes y;
+    std::memcpy(&y, &said.y[o][j], sizeof y);
+    for (uint32_t k = 0; k < kRows; ++k) sum[k] += said.y[o][i + k] * y;
+  }
+  for (uint32_t k = 0; k < kRows; ++k) strip[k] = sum[k];
+}
+
+void fold(RowEquations& row, const FoldTask& task) {
+  Said said;
+  collect(task, said);
+  for (uint32_t i = 0; i < task.count; i += kRows) add_outer(&row.strip[i], task, said, i, 0);
+  for (uint32_t i = 8; i < task.count; i += kRows) add_outer(&row.strip[i + 8], task, said, i, 8);
+  if (task.sum_to_one) return;
+  for (uint32_t o = task.begin; o < task.end; ++o) {
+    for (uint32_t i = 0; i < kMaxNeighbours; ++i)
+      row.target[i] += said.y[o][i] * (said.self[o] * task.scale[o]);
+  }
+}
+
+void observe_points(WeightBatch& batch, const Lanes (*y)[3], const Lanes& inverse_noise) {
+  for (uint32_t i = 0; i < batch.count; ++i) {
+    for (uint32_t j = 0; j <= i; ++j) {
+      const Lanes dot = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2];
+      batch.matrix[packed(i, j)] += dot * inverse_noise;
+    }
+  }
+}
+
+/// A = L D L^T in place: L below the diagonal, 1/D in `inverse`. Where rounding has eaten a pivot
+/// its 1/D is 0, which takes the neighbour out of the system.
+inline void factorise(uint32_t n, Lanes* a, Lanes* inverse) {
+  const Lanes zero{};
+  const Lanes one = zero + 1.0;
+  Lanes scaled[kMaxNeighbours];
+  Lanes diagonal[kMaxNeighbours];
+  for (uint32_t j = 0; j < n; ++j) {
+    Lanes d = a[packed(j, j)];
+    const Lanes floor = d * 0x1p-42;
+    for (uint32_t k = 0; k < j; ++k) {
+      scaled[k] = a[packed(j, k)] * diagonal[k];
+      d -= a[packed(j, k)] * scaled[k];
+    }
+    diagonal[j] = d > floor ? d : zero;
+    inverse[j] = d > floor ? 1.0 / (d > floor ? d : one) : zero;
+    for (uint32_t i = j + 1; i < n; ++i) {
+      Lanes t = a[packed(i, j)];
+      for (uint32_t k = 0; k < j; ++k) t -= a[packed(i, k)] * scaled[k];
+      a[packed(i, j)] = t * inverse[j];
+    }
+  }
+}
+
+/// Solves L D L^T x = x in place.
+inline void substitute(uint32_t n, const Lanes* a, const Lanes* inverse, Lanes* x) {
+  for (uint32_t i = 1; i < n; ++i) {
+    for (uint32_t k = 0; k < i; ++k) x[i] -= a[packed(i, k)] * x[k];
+  }
+  for (uint32_t i = 0; i < n; ++i) x[i] *= inverse[i];
+  for (uint32_t i = n; i-- > 0;) {
+    for (uint32_t k = i + 1; k < n; ++k) x[i] -= a[packed(k, i)] * x[k];
+  }
+}
+
+/// w += b (1 - sum w) / sum b: the multiplier of the constraint that the weights sum to one.
+inline void constrain(uint32_t n, Lanes* w, const Lanes* b) {
+  Lanes sum_w{};
+  Lanes sum_b{};
+  for (uint32_t i = 0; i < n; ++i) {
+    sum_w += w[i];
+    sum_b += b[i];
+  }
+  const Lanes zero{};
+  const Lanes one = zero + 1.0;
+  const Lanes factor = sum_b > zero ? (1.0 - sum_w) / (sum_b > zero ? sum_b : one) : zero;
+  for (uint32_t i = 0; i < n; ++i) w[i] += b[i] * factor;
+}
+
+void solve(const WeightBatch& batch, bool sum_to_one, float* const out[kLanes]) {
+  const uint32_t n = batch.count;
+  Lanes a[kTriangle];
+  Lanes inverse[kMaxNeighbours];
+  Lanes w[kMaxNeighbours];
+  Lanes b[kMaxNeighbours];
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = batch.matrix[packed(i, j)];
+    a[packed(i, i)] += batch.precision[i];
+    w[i] = batch.prior[i] * batch.precision[i] + batch.target[i];
+    b[i] = batch.in_use[i];
+  }
+  factorise(n, a, inverse);
+  substitute(n, a, inverse, w);
+  if (sum_to_one) {
+    substitute(n, a, inverse, b);
+    constrain(n, w, b);
+  }
+  for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t i = 0; i < n; ++i) out[l][i] = static_cast<float>(w[i][l]);
+  }
+}
+
+}  // namespace
+
+}  // namespace reeb::REEB_KERNEL_NAMESPACE
