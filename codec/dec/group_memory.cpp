@@ -10,8 +10,15 @@ namespace reeb {
 
 namespace {
 
-constexpr uint64_t kBytesPerRow =
-    2600;  ///< of weights, graph and contexts of a field while it is decoded
+/// Of weights, graph and contexts of a field while it is decoded.
+constexpr uint64_t kBytesPerRow = 2600;
+constexpr uint64_t kFastBytesPerRow = 800;  ///< whose weights are not learned
+/// Of a reference mesh while it is decoded, without what Draco takes.
+constexpr uint64_t kMeshBytesPerVertex = 800, kMeshBytesPerFace = 80;
+
+uint64_t bytes_per_row(Profile profile) {
+  return profile == Profile::kFast ? kFastBytesPerRow : kBytesPerRow;
+}
 
 template <class T>
 uint64_t bytes_of(const std::vector<T>& v) {
@@ -21,13 +28,14 @@ uint64_t bytes_of(const std::vector<T>& v) {
 }  // namespace
 
 uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles) {
-  return header.vertex_count * kBytesPerRow + draco_triangles * kDracoMemoryPerTriangle;
+  return header.vertex_count * kMeshBytesPerVertex + header.face_count * kMeshBytesPerFace +
+         draco_triangles * kDracoMemoryPerTriangle;
 }
 
 uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
   if (h.profile == Profile::kLossless) return vertices * kBytesPerRow + kept_memory(vertices, h);
   const uint64_t components = h.component_count;
-  const uint64_t surface = vertices * (kBytesPerRow + 4 * components);
+  const uint64_t surface = vertices * (bytes_per_row(h.profile) + 4 * components);
   // The basis is there as it was decoded, by component in binary64, and by frame.
   const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 16 * (components + 1));
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "bitstream/container.h"
+#include "tests/codec/allocation_meter.h"
 #include "tests/codec/round_trip.h"
 #include "tests/codec/shapes.h"
 
@@ -339,6 +340,27 @@ TEST_CASE("memory stays within the limit while a group is decoded ahead", "[play
       REQUIRE(gives(*decoder, frame));
     }
     CHECK(decoder->stats().peak_memory <= options.limits.max_memory);
+  }
+}
+
+TEST_CASE("memory is accounted for that decoding takes, and not much more", "[player]") {
+  constexpr size_t kModels = 1u << 20;  // of any size of mesh
+  for (const Profile profile : {Profile::kMain, Profile::kFast, Profile::kLossless}) {
+    for (const Shape& shape : {torus(150, 60), points_only(9000), strip(9000)}) {
+      EncodeOptions options = quick_options();
+      options.profile = profile;
+      if (profile == Profile::kLossless) options.target = Target::kLossless;
+      options.effort = kLeastEffort;
+      const Bytes bytes = encode_or_fail(sequence_of({animate(shape, 3)}), options).bytes;
+      INFO(shape.name << ", profile " << static_cast<int>(profile));
+      std::vector<float> xyz(shape.positions.size());
+      const AllocationMeter meter;
+      std::unique_ptr<Decoder> decoder;
+      REQUIRE(Decoder::open(bytes, {}, decoder).ok());
+      REQUIRE(decoder->decode_frame(0, xyz.data()).ok());
+      CHECK(meter.peak() <= decoder->stats().peak_memory + kModels);
+      if (meter.peak() > 0) CHECK(decoder->stats().peak_memory <= 2 * meter.peak() + kModels);
+    }
   }
 }
 
