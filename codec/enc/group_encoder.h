@@ -13,6 +13,7 @@
 #include "codec/dec/group_decoder.h"
 #include "codec/enc/correction_encoder.h"
 #include "codec/enc/group_signal.h"
+#include "codec/enc/laplacian.h"
 #include "codec/enc/motion_fit.h"
 #include "codec/enc/surface_context.h"
 
@@ -52,8 +53,8 @@ class GroupEncoder {
   virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                             GroupRun& run) = 0;
 
-  /// Squared error to expect at quantization step q, roughly, without encoding.
-  virtual double expected_error(double q) const = 0;
+  /// Bits and squared error to expect at quantization step q, roughly, without encoding.
+  virtual RatePoint expect(const SurfaceContext& surface, double q) = 0;
 
   /// What the motion model is to predict: V x K, world units, rows as the surface graph.
   virtual Eigen::MatrixXf motion_targets(const SurfaceContext& surface) = 0;

@@ -18,6 +18,10 @@ class KarhunenLoeve {
   const Eigen::MatrixXd& basis() const { return basis_; }
   /// Energy of each component, world units squared.
   const Eigen::VectorXd& energies() const { return energies_; }
+  /// Energy of each vertex, in input order, world units squared.
+  Eigen::VectorXd row_energies() const {
+    return signal_.trajectories.rowwise().squaredNorm().cast<double>();
+  }
   uint32_t size() const { return static_cast<uint32_t>(basis_.cols()); }
 
   /// Coefficients of component k: V values in input order, world units. Computed when first asked

@@ -9,31 +9,30 @@ namespace {
 double bits_of(double p) { return p > 0 ? -p * std::log2(p) : 0; }
 }  // namespace
 
-RatePoint quantized_laplacian(double scale, double step) {
-  // Density exp(-|x| / b) / 2b. Level n >= 1 covers (n - 1/2, n + 1/2) steps with probability p1
-  // r^(n - 1) a side.
+RatePoint quantized_laplacian(double scale, double step, double threshold) {
+  // Density exp(-|x| / b) / 2b. Level 1 covers (threshold, 3/2) steps, level n > 1 covers
+  // (n - 1/2, n + 1/2) with probability p2 r^(n - 2) a side.
   const double b = std::max(scale, 1e-300);
+  const double zone = threshold * step;
+  const double outside = std::exp(-zone / b);       // P(|x| > zone)
+  const double beyond = std::exp(-1.5 * step / b);  // P(|x| > 3/2 steps)
   const double r = std::exp(-step / b);
-  const double outside = std::exp(-step / (2 * b));  // P(|x| > step / 2)
-  const double p1 = outside * (1 - r) / 2;
   RatePoint out;
-  out.bits = bits_of(1 - outside);
-  if (p1 > 0) {
+  out.bits = bits_of(1 - outside) + 2 * bits_of((outside - beyond) / 2);
+  const double p2 = beyond * (1 - r) / 2;
+  if (p2 > 0) {
     const double log_ratio = step / b / std::log(2.0);  // -log2 r
-    out.bits += outside * -std::log2(p1) + outside * r / (1 - r) * log_ratio;
+    out.bits += beyond * -std::log2(p2) + beyond * r / (1 - r) * log_ratio;
   }
-  // E[x^2] = 2 b^2 less what the levels take away: sum over n of 2 n step E[x; level n] - (n
-  // step)^2 P(level n).
-  const double half = step / 2;
-  const double inner =
-      2 * b * b - outside * (half * half + 2 * b * half + 2 * b * b);  // of the zero level
-  const double u = step / b;
-  // Within a level, y = x - (n - 1/2) step is exponential, cut at one step; its error is y - step
-  // / 2.
-  const double cut = 1 - r;
-  const double mean = b - step * r / std::max(cut, 1e-300);
-  const double square = cut > 0 ? 2 * b * b - r * step * step * (1 + 2 / u) / cut : 0;
-  out.distortion = inner + outside * (square - step * mean + half * half);
+  // Integral of (x - c)^2 exp(-x / b) / b from y on.
+  const auto error_from = [b](double y, double c) {
+    return std::exp(-y / b) * ((y - c) * (y - c) + 2 * b * (y - c) + 2 * b * b);
+  };
+  const double inner = 2 * b * b - error_from(zone, 0);
+  const double first = error_from(zone, step) - error_from(1.5 * step, step);
+  // All further levels are alike: x from half a step below to half a step above.
+  const double level = error_from(0, step / 2) - error_from(step, step / 2);
+  out.distortion = inner + first + (r < 1 ? beyond * level / (1 - r) : 0);
   return out;
 }
 

@@ -8,8 +8,9 @@ struct RatePoint {
   double distortion = 0;  ///< mean squared error of a sample
 };
 
-/// Source of mean absolute value `scale` > 0, quantized to the nearest multiple of `step` > 0.
-RatePoint quantized_laplacian(double scale, double step);
+/// Source of mean absolute value `scale` > 0, quantized to the nearest multiple of `step` > 0, but
+/// to 0 up to `threshold` (0.5 <= threshold < 1.5) steps.
+RatePoint quantized_laplacian(double scale, double step, double threshold = 0.5);
 
 /// Step that minimises distortion + slope * bits; the largest one tried where nothing is worth
 /// sending.

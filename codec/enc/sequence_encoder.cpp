@@ -19,6 +19,7 @@ constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
 constexpr double kTolerance = 0.0095;
+constexpr double kSlopeStride = 1.2;  ///< ratio of steps between which a slope is taken
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
 constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
@@ -26,7 +27,7 @@ constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corre
 constexpr double kThriftRatio = 0.75;   ///< between weights of bits that are tried
 // Squared error in q^2 that a bit is worth where settings are compared: most coefficients are 0, so
 // it is more than the ln(2) / 6 of a fine quantizer.
-constexpr double kErrorPerBit = 0.2;
+constexpr double kErrorPerBit = 0.14;
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -70,10 +71,8 @@ double SequenceEncoder::excess_of(const Attempt& a) const {
     case Target::kMaxError:
       return 0;  // whatever the step
     case Target::kBpvf:
-      measured = 8 * static_cast<double>(a.bytes.size()) / vertex_frames_;
-      break;
     case Target::kSize:
-      measured = static_cast<double>(a.bytes.size());
+      measured = static_cast<double>(a.bytes.size()) / bytes_per_unit();
       break;
     case Target::kLossless:  // see encode_lossless
       break;
@@ -145,7 +144,11 @@ void SequenceEncoder::hold_components(bool held) {
 
 Status SequenceEncoder::finish_search() {
   if (bounded()) return {};
-  // With the number of components the error would jump by more than the tolerance.
+  // As many components as pay at the step that is likely to be the last; with their number the
+  // error would jump by more than the tolerance.
+  hold_components(false);
+  if (Status s = search(0, kTolerance, 1); !s.ok()) return s;
+  hold_components(true);
   if (Status s = search(0, kTolerance, kTrials); !s.ok()) return s;
   if (best_.excess <= 0 && best_.excess >= -kTolerance) return {};
   hold_components(false);
@@ -158,29 +161,41 @@ double SequenceEncoder::least_step() const {
   return largest / kMostSteps;
 }
 
-double SequenceEncoder::guess_step(double error) const {
-  if (energy_ <= 0 || error <= 0) return kAnyStep;
-  if (bounded()) return 2 * error * std::sqrt(static_cast<double>(sequence_.frame_count()));
-  const double wanted = error * error * 3 * vertex_frames_;
+RatePoint SequenceEncoder::expect(double q) const {
+  RatePoint out;
+  for (const auto& shot : shots_) {
+    const RatePoint point = shot->expect(q);
+    out.bits += point.bits;
+    out.distortion += point.distortion;
+  }
+  return out;
+}
+
+double SequenceEncoder::guess_step() const {
+  if (energy_ <= 0) return kAnyStep;
   double low = std::log(std::max(least_step(), 1e-30));
   double high = 0.5 * std::log(energy_);
-  for (int i = 0; i < 40 && low < high; ++i) {
+  while (high - low > 0.01) {
     const double middle = 0.5 * (low + high);
-    double expected = 0;
-    for (const auto& shot : shots_) expected += shot->expected_error(std::exp(middle));
-    (expected < wanted ? low : high) = middle;
+    const RatePoint point = expect(std::exp(middle));
+    const bool fine = is_error(options_.target)
+                          ? kg_of(point.distortion) < options_.target_value
+                          : point.bits > 8 * options_.target_value * bytes_per_unit();
+    (fine ? low : high) = middle;
   }
   return std::exp(low);
 }
 
 double SequenceEncoder::expected_slope(double q) const {
-  if (!is_error(options_.target)) return 0;
-  const auto logarithm = [this](double at) {
-    double error = 0;
-    for (const auto& shot : shots_) error += shot->expected_error(at);
-    return error > 0 ? 0.5 * std::log(error) : 0;
-  };
-  return (logarithm(1.2 * q) - logarithm(q / 1.2)) / (2 * std::log(1.2));
+  const RatePoint below = expect(q / kSlopeStride);
+  const RatePoint above = expect(q * kSlopeStride);
+  const double ratio = is_error(options_.target) ? std::sqrt(above.distortion / below.distortion)
+                                                 : below.bits / above.bits;
+  return std::isfinite(ratio) ? std::log(ratio) / (2 * std::log(kSlopeStride)) : 0;
+}
+
+double SequenceEncoder::bytes_per_unit() const {
+  return options_.target == Target::kBpvf ? vertex_frames_ / 8 : 1;
 }
 
 double SequenceEncoder::coordinate_error() const {
@@ -298,19 +313,45 @@ EncodeStats SequenceEncoder::stats() const {
   return out;
 }
 
-Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
+double SequenceEncoder::first_error() const {
   const double extent = std::sqrt(energy_ / std::max(1.0, 3 * vertex_frames_));
-  double expected = kGuessedPrecision * extent;
-  if (options_.target == Target::kKg) expected = options_.target_value / 100 * extent;
-  if (bounded()) expected = options_.target_value / kBoundPerError;
-  if (Status s = set_grids(expected); !s.ok()) return s;
+  if (options_.target == Target::kKg) return options_.target_value / 100 * extent;
+  return bounded() ? options_.target_value / kBoundPerError : kGuessedPrecision * extent;
+}
+
+Status SequenceEncoder::start() {
+  if (bounded()) {
+    const auto frames = static_cast<double>(sequence_.frame_count());
+    return attempt(energy_ > 0 ? 2 * first_error() * std::sqrt(frames) : kAnyStep, best_);
+  }
+  double q = guess_step();
+  if (!is_error(options_.target)) {
+    // Grids that suit the error which that size leads to leave more, or less, to the rest.
+    const double error = std::sqrt(expect(q).distortion / (3 * vertex_frames_));
+    if (Status s = set_grids(error); !s.ok()) return s;
+    q = guess_step();
+  }
+  return attempt(q, best_);
+}
+
+Status SequenceEncoder::suit_grids() {
+  std::vector<uint32_t> before;
+  for (const auto& shot : shots_) before.push_back(shot->grid_bits());
+  if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    if (shots_[i]->grid_bits() != before[i]) return attempt(best_.q, best_);
+  }
+  return {};
+}
+
+Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
+  if (Status s = set_grids(first_error()); !s.ok()) return s;
   if (options_.regions > 0) set_regions(static_cast<uint32_t>(options_.regions));
   if (options_.regions < 0 && options_.profile == Profile::kThesis) {
     for (auto& shot : shots_) shot->set_reeb_regions();
   }
 
-  best_.q = guess_step(expected);
-  if (Status s = attempt(best_.q, best_); !s.ok()) return s;
+  if (Status s = start(); !s.ok()) return s;
   if (bounded()) {
     if (Status s = search_base(); !s.ok()) return s;
   } else if (Status s = search(kNear, 2 * kNear, kRoughTrials); !s.ok()) {
@@ -318,9 +359,7 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   }
   hold_components(!bounded());
   if (!is_error(options_.target)) {
-    // Only now the error is known that the grids are to suit.
-    if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
-    if (Status s = attempt(best_.q, best_); !s.ok()) return s;
+    if (Status s = suit_grids(); !s.ok()) return s;
   }
   if (Status s = refine_grids(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;

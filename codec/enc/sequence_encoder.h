@@ -33,6 +33,7 @@ class SequenceEncoder {
   /// An attempt with the current grids and regions.
   Status attempt(double q, Attempt& out);
   double kg_of(double squared_error) const;
+  double bytes_per_unit() const;  ///< of the target, a size
   double excess_of(const Attempt& a) const;
   ErrorSums measure(const Attempt& a) const;
   EncodeStats stats() const;
@@ -44,10 +45,18 @@ class SequenceEncoder {
   Status finish_search();
   /// Keeps the numbers of components of `best_`, or lets them go.
   void hold_components(bool held);
-  /// d ln(error) / d ln q to expect; 0 where the target is a size.
+  /// Bits and squared error to expect.
+  RatePoint expect(double q) const;
+  /// |d ln(measured) / d ln q| to expect; 0 where there is nothing to go by.
   double expected_slope(double q) const;
-  /// Step at which this error per coordinate is to be expected.
-  double guess_step(double error) const;
+  /// Step at which the target is to be expected.
+  double guess_step() const;
+  /// Error of a coordinate that the target makes likely, before anything is known of the motion.
+  double first_error() const;
+  /// The first attempt.
+  Status start();
+  /// Sets the grids for the error of `best_`, and makes that anew where they changed.
+  Status suit_grids();
   /// Target::kMaxError: finds the step that makes the smallest file.
   Status search_base();
   bool bounded() const { return options_.target == Target::kMaxError; }

@@ -13,6 +13,7 @@ namespace {
 constexpr uint32_t kLeastBits = 9;
 constexpr uint32_t kMostBits = 16;
 // Weights need no finer reference than this; fitted to what trials chose on ten sequences.
+constexpr double kGroupOverhead = 8 * 60;  ///< bits of headers, checksums and the seek table
 constexpr double kGridBase = 3.6;
 constexpr double kGridSlope = 0.6;       ///< bits per halving of the error
 constexpr uint32_t kLongestGroup = 512;  ///< frames, unless asked for
@@ -146,10 +147,14 @@ void ShotEncoder::fit_motion() {
   }
 }
 
-double ShotEncoder::expected_error(double q) const {
-  double error = 0;
-  for (const Group& group : groups_) error += group.encoder->expected_error(q);
-  return error;
+RatePoint ShotEncoder::expect(double q) {
+  RatePoint out{8 * static_cast<double>(surface_.bytes.size()), 0};
+  for (const Group& group : groups_) {
+    const RatePoint point = group.encoder->expect(surface_, q);
+    out.bits += point.bits + kGroupOverhead;
+    out.distortion += point.distortion;
+  }
+  return out;
 }
 
 void ShotEncoder::set_thrift(double factor) {

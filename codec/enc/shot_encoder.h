@@ -37,8 +37,8 @@ class ShotEncoder {
   void set_reeb_regions();
   uint32_t regions() const { return regions_; }
 
-  /// Squared error to expect at quantization step q, roughly.
-  double expected_error(double q) const;
+  /// Bits and squared error to expect at quantization step q, roughly.
+  RatePoint expect(double q);
 
   /// From now on every group sends as many components as in `coded`; empty = as many as pay.
   void hold_components(const std::vector<CodedGroup>& coded);

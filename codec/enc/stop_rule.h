@@ -15,13 +15,16 @@ class StopRule {
   /// stop.
   bool add(double energy, double error, double bits) {
     ++count_;
-    const double basis_bits = basis_weight_ * 0.5 * std::log2(1 + 6 * energy / basis_weight_);
-    cost_ += error + basis_weight_ / 12 - energy + lambda_ * (bits + basis_bits);
+    cost_ += error + basis_weight_ / 12 - energy + lambda_ * (bits + basis_bits(energy));
     if (cost_ < best_cost_) {
       best_cost_ = cost_;
       best_count_ = count_;
     }
     return count_ - best_count_ < kPatience;
+  }
+  /// Of a component's basis vector, estimated.
+  double basis_bits(double energy) const {
+    return basis_weight_ * 0.5 * std::log2(1 + 6 * energy / basis_weight_);
   }
   uint32_t best() const { return best_count_; }
 

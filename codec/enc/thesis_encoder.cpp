@@ -15,8 +15,11 @@ double slope_at(double step) { return step * step * std::log(2.0) / 6; }
 
 }  // namespace
 
-double ThesisEncoder::expected_error(double q) const {
-  return std::min(signal_.energy, q * q / 12 * static_cast<double>(signal_.trajectories.size()));
+RatePoint ThesisEncoder::expect(const SurfaceContext&, double q) {
+  const auto values = static_cast<double>(signal_.trajectories.size());
+  const double scale = std::sqrt(signal_.energy / values / 2);
+  const RatePoint point = quantized_laplacian(scale, q);
+  return {values * point.bits, std::min(signal_.energy, values * q * q / 12)};
 }
 
 Eigen::MatrixXf ThesisEncoder::motion_targets(const SurfaceContext& surface) {

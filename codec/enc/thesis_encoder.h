@@ -15,7 +15,7 @@ class ThesisEncoder : public GroupEncoder {
   CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                     GroupRun& run) override;
   /// Positions less the origin, column 3 t + axis.
-  double expected_error(double q) const override;
+  RatePoint expect(const SurfaceContext& surface, double q) override;
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  private:

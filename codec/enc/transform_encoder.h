@@ -6,6 +6,7 @@
 
 #include "codec/enc/group_encoder.h"
 #include "codec/enc/karhunen_loeve.h"
+#include "codec/enc/rate_model.h"
 
 namespace reeb {
 
@@ -15,7 +16,7 @@ class TransformEncoder : public GroupEncoder {
 
   CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                     GroupRun& run) override;
-  double expected_error(double q) const override;
+  RatePoint expect(const SurfaceContext& surface, double q) override;
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  protected:
@@ -39,6 +40,8 @@ class TransformEncoder : public GroupEncoder {
   unsigned threads_;
 
  private:
+  std::unique_ptr<RateModel> model_;  ///< of the first surface asked about
+
   Planes encode_field(const SurfaceContext& surface, const MotionFit* motion, Field& field,
                       CodedGroup& out);
   void encode_basis(const SurfaceContext& surface, const Planes& planes, MagnitudeModel& contexts,

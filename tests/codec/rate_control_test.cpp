@@ -43,6 +43,19 @@ TEST_CASE("a size is met within one per cent", "[rate_control]") {
   check_met(static_cast<double>(out.bytes.size()), 9000);
 }
 
+TEST_CASE("targets take few trials", "[rate_control]") {
+  const Sequence sequence = large_sequence();
+  int trials = 0;
+  for (const auto& [target, value] :
+       {std::pair(Target::kKg, 0.5), std::pair(Target::kKg, 0.01), std::pair(Target::kBpvf, 0.8),
+        std::pair(Target::kBpvf, 6.0), std::pair(Target::kSize, 20000.0)}) {
+    EncodeOptions options = aim(target, value);
+    options.progress = [&](double) { return ++trials > 0; };
+    encode_or_fail(sequence, options);
+  }
+  CHECK(trials <= 5 * 7);
+}
+
 TEST_CASE("the fast profile meets its target too", "[rate_control]") {
   const Sequence sequence = large_sequence();
   EncodeOptions options = aim(Target::kKg, 0.1);

@@ -7,14 +7,18 @@ namespace reeb {
 namespace {
 
 /// The same figures by summing small slices of the density.
-RatePoint by_slices(double scale, double step) {
+RatePoint by_slices(double scale, double step, double threshold = 0.5) {
   constexpr int kSlices = 2000;
   RatePoint out;
   for (int n = -200; n <= 200; ++n) {
     double probability = 0;
+    const double half = n == 0 ? threshold : 0.5;
+    const double begin = n == 1 ? threshold : n - half;
+    const double end = n == -1 ? -threshold : n + half;
     for (int i = 0; i < kSlices; ++i) {
-      const double x = (n - 0.5 + (i + 0.5) / kSlices) * step;
-      const double mass = std::exp(-std::abs(x) / scale) / (2 * scale) * step / kSlices;
+      const double x = (begin + (end - begin) * (i + 0.5) / kSlices) * step;
+      const double mass =
+          std::exp(-std::abs(x) / scale) / (2 * scale) * (end - begin) * step / kSlices;
       probability += mass;
       out.distortion += mass * (x - n * step) * (x - n * step);
     }
@@ -31,6 +35,17 @@ TEST_CASE("rate and distortion of a quantized Laplacian are those of its density
     const RatePoint point = quantized_laplacian(1.5, step);
     CHECK(point.bits == Approx(expected.bits).epsilon(1e-3));
     CHECK(point.distortion == Approx(expected.distortion).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a dead zone is that of the density") {
+  for (const double threshold : {0.6, 0.85, 1.2}) {
+    for (const double step : {0.3, 2.0, 6.0}) {
+      const RatePoint expected = by_slices(1.5, step, threshold);
+      const RatePoint point = quantized_laplacian(1.5, step, threshold);
+      CHECK(point.bits == Approx(expected.bits).epsilon(1e-3));
+      CHECK(point.distortion == Approx(expected.distortion).epsilon(1e-3));
+    }
   }
 }
 
