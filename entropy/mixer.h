@@ -20,7 +20,9 @@ extern const std::array<int16_t, 4096> kStretch;
 }  // namespace detail
 
 /// round(65536 / (1 + exp(-x / 256))) clamped to 1 .. 65535; |x| <= kSquashLimit.
-inline Probability squash(int x) { return detail::kSquash[static_cast<size_t>(x + kSquashLimit)]; }
+inline Probability squash(int x) {
+  return detail::kSquash[static_cast<uint32_t>(x + kSquashLimit)];
+}
 
 /// Inverse of squash on 4096 equal intervals of p, |result| <= kStretchLimit.
 inline int stretch(Probability p) { return detail::kStretch[p >> 4]; }

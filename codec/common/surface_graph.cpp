@@ -160,6 +160,7 @@ void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uin
   }
   row.prior.fill(0.0f);
   row.precision.fill(1.0f);
+  if (inverse_sum == 0) return;  // without a ring there are no neighbours
   for (uint32_t i = 0; i < row.ring; ++i) {
     const uint64_t share = (uint64_t{inverse[i]} << 16) / inverse_sum;
     row.prior[i] = static_cast<float>(share) / 65536.0f;
