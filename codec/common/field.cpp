@@ -9,9 +9,8 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kRecent = 4;  ///< rows over which the recent mean fades
-constexpr float kFading = 0.5f;  ///< of what a group knows about weights, in the next one
-constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
+constexpr double kFading = 0.5;  ///< of what a group knows about weights, in the next one
+constexpr uint32_t kMagnitudeCap = (1u << 24) - 1;  ///< keeps all sums within 32 bits
 
 /// 2^16 / count, rounded down; 0 for nothing to take the mean of.
 constexpr std::array<uint32_t, kMaxNeighbours + 1> kInverse = [] {
@@ -50,13 +49,26 @@ FieldOptions basis_field_options() {
   return options;
 }
 
+Field::Plan::Plan(const PredictionGraph& graph, bool predict) : uses(find_uses(graph)) {
+  rows.reserve(graph.size());
+  neighbours.reserve(graph.size());
+  for (uint32_t r = 0; r < graph.size(); ++r) {
+    const PredictionGraph::Row& row = graph.rows[r];
+    const uint32_t level = predict ? graph.step_level[r] : 0;
+    rows.push_back({kStepTable[level], kInverse[row.ring], kInverse[row.count - row.ring],
+                    kInverseSteps[level]});
+    neighbours.push_back(row.neighbour);
+  }
+}
+
 Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned threads)
-    : graph_(graph),
-      options_(options),
+    : options_(options),
+      plan_(std::make_shared<const Plan>(graph, options.predict)),
       estimator_(graph, options.weights, threads),
       magnitude_(graph.size(), 0),
       last_(graph.size(), 0),
-      history_(graph.size(), 0) {}
+      history_(graph.size(), 0),
+      near_(graph.size()) {}
 
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
   estimator_.observe_reference(points, order);
@@ -70,63 +82,28 @@ std::vector<std::vector<float>> Field::next_group() {
   return planes;
 }
 
-float Field::predict(uint32_t row, const float* plane) const {
-  if (!options_.predict) return 0;
-  const float* w = estimator_.weights(row);
-  const auto& neighbour = graph_.rows[row].neighbour;
-  float sum[4] = {0, 0, 0, 0};  // four running sums, so that vector units may take one each
-  for (uint32_t i = 0; i < kMaxNeighbours; i += 4) {
-    for (uint32_t j = 0; j < 4; ++j) sum[j] += w[i + j] * plane[neighbour[i + j]];
-  }
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-Surroundings Field::surroundings(uint32_t row) const {
-  const PredictionGraph::Row& r = graph_.rows[row];
-  uint32_t ring = 0;
-  uint32_t extra = 0;
-  for (uint32_t i = 0; i < r.ring; ++i) ring += magnitude_[r.neighbour[i]];
-  for (uint32_t i = r.ring; i < r.count; ++i) extra += magnitude_[r.neighbour[i]];
-  const auto mean = [](uint32_t sum, uint32_t count) {
-    return static_cast<uint32_t>(uint64_t{sum} * kInverse[count] >> 16);
-  };
-  Surroundings s;
-  s.ring_mean = mean(ring, r.ring);
-  s.extra_mean = r.count > r.ring ? mean(extra, r.count - r.ring) : s.ring_mean;
-  s.recent = recent_ / kRecent;
-  s.history = history_[row];
-  s.last = last_[row];
-  if (options_.predict) {
-    s.step = kStepTable[graph_.step_level[row]];
-    s.inverse_step = kInverseSteps[graph_.step_level[row]];
-  }
-  return s;
-}
-
-void Field::note(uint32_t row, int64_t residual, uint32_t step) {
+void Field::note(uint32_t row, int64_t residual) {
   const uint64_t size = std::min<uint64_t>(
-      static_cast<uint64_t>(residual < 0 ? -residual : residual), uint64_t{kMagnitudeCap} << 8);
-  const auto magnitude = static_cast<uint32_t>(std::min<uint64_t>(size * step >> 8, kMagnitudeCap));
+      static_cast<uint64_t>(residual < 0 ? -residual : residual), uint64_t{1} << 32);
+  const auto magnitude =
+      static_cast<uint32_t>(std::min<uint64_t>(size * plan_->rows[row].step >> 8, kMagnitudeCap));
   magnitude_[row] = magnitude;
   recent_ += magnitude;
-  recent_ -= recent_ / kRecent;
+  const uint32_t* to = plan_->uses.to.data();
+  const uint32_t end = plan_->uses.begin[row + 1];
+  for (uint32_t i = plan_->uses.begin[row]; i < end; ++i) near_[to[i] / 2][to[i] % 2] += magnitude;
 }
 
 void Field::finish_component(double energy) {
-  for (uint32_t r = 0; r < graph_.size(); ++r) {
-    history_[r] =
-        static_cast<uint32_t>((uint64_t{history_[r]} * 154 + uint64_t{magnitude_[r]} * 102) >> 8);
-  }
-  recent_ = 0;
-  if (options_.adaptive) learn(energy);
+  const auto rows = static_cast<uint32_t>(magnitude_.size());
+  for (uint32_t r = 0; r < rows; ++r) history_[r] = (history_[r] * 154 + magnitude_[r] * 102) >> 8;
   std::swap(last_, magnitude_);
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
-}
-
-void Field::learn(double energy) {
-  const uint32_t fine_rows = graph_.size() - graph_.size() / 4;
-  const double noise = options_.noise_share * (energy / fine_rows) + options_.noise_floor;
-  estimator_.observe(planes_.back(), magnitude_, noise);
+  std::fill(near_.begin(), near_.end(), std::array<uint32_t, 2>{});
+  recent_ = 0;
+  if (!options_.adaptive) return;
+  const uint32_t fine_rows = rows - rows / 4;
+  estimator_.observe(options_.noise_share * (energy / fine_rows) + options_.noise_floor);
   if (resolve_after(component_count() - 1)) estimator_.solve();
 }
 

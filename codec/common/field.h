@@ -3,9 +3,10 @@
 // this same code.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <deque>
-#include <iterator>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "bitstream/headers.h"
@@ -49,50 +50,90 @@ class Field {
   const std::vector<float>& plane(uint32_t k) const { return planes_[k]; }
   MagnitudeModel& model() { return model_; }
   /// All decoded planes; the field is used up.
-  std::vector<std::vector<float>> take_planes() {
-    return {std::make_move_iterator(planes_.begin()), std::make_move_iterator(planes_.end())};
-  }
+  std::vector<std::vector<float>> take_planes() { return std::move(planes_); }
 
  private:
-  /// In 1/65536 of q; without prediction no row matters to others, and all steps are equal.
-  uint32_t step_of(uint32_t row) const {
-    return options_.predict ? kStepTable[graph_.step_level[row]] : 65536;
-  }
+  /// What does not change while the field is coded.
+  struct Plan {
+    struct Row {
+      uint32_t step;                  ///< in 1/65536 of q; all equal without prediction
+      uint32_t ring_part, rest_part;  ///< 2^16 / neighbours in the ring and beyond, rounded down
+      uint64_t inverse_step;          ///< 2^50 / step, rounded up
+    };
+    Plan(const PredictionGraph& graph, bool predict);
+    std::vector<Row> rows;
+    std::vector<std::array<uint32_t, kMaxNeighbours>> neighbours;  ///< the row itself for padding
+    RowUses uses;
+  };
+
   float predict(uint32_t row, const float* plane) const;
   Surroundings surroundings(uint32_t row) const;
-  void note(uint32_t row, int64_t residual, uint32_t step);
+  void note(uint32_t row, int64_t residual);
   void finish_component(double energy);
-  void learn(double energy);
 
-  const PredictionGraph& graph_;
+  static constexpr uint32_t kRecent = 4;  ///< rows over which the recent mean fades
+
   FieldOptions options_;
+  std::shared_ptr<const Plan> plan_;
   WeightEstimator estimator_;
   MagnitudeModel model_;
-  std::deque<std::vector<float>>
-      planes_;                       ///< a deque: the estimator keeps pointers to its elements
+  std::vector<std::vector<float>> planes_;
   std::vector<uint32_t> magnitude_;  ///< |n| * step of the component being coded, in q / 256
   std::vector<uint32_t> last_;       ///< the magnitudes of the component before
   std::vector<uint32_t> history_;    ///< decaying mean of the magnitudes over components
-  uint32_t recent_ = 0;              ///< decaying mean along the rows, times 4
+  /// Sums of the magnitudes of each row's neighbours beyond the ring and in it.
+  std::vector<std::array<uint32_t, 2>> near_;
+  uint32_t recent_ = 0;  ///< decaying mean along the rows, times 4
 };
+
+inline float Field::predict(uint32_t row, const float* plane) const {
+  const float* w = estimator_.weights(row);
+  const auto& neighbour = plan_->neighbours[row];
+  float sum[4] = {0, 0, 0, 0};  // four running sums, so that vector units may take one each
+  for (uint32_t i = 0; i < kMaxNeighbours; i += 4) {
+    for (uint32_t j = 0; j < 4; ++j) sum[j] += w[i + j] * plane[neighbour[i + j]];
+  }
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+inline Surroundings Field::surroundings(uint32_t row) const {
+  const Plan::Row& r = plan_->rows[row];
+  const auto [rest, ring] = near_[row];
+  Surroundings s;
+  s.ring_mean = static_cast<uint32_t>(uint64_t{ring} * r.ring_part >> 16);
+  s.extra_mean =
+      r.rest_part == 0 ? s.ring_mean : static_cast<uint32_t>(uint64_t{rest} * r.rest_part >> 16);
+  s.recent = recent_ / kRecent;
+  s.history = history_[row];
+  s.last = last_[row];
+  s.step = r.step;
+  s.inverse_step = r.inverse_step;
+  return s;
+}
 
 template <class Residual>
 void Field::code_component(Residual&& residual) {
   if (planes_.empty() && options_.predict) estimator_.solve();
-  std::vector<float>& plane = planes_.emplace_back(graph_.size());
+  const auto rows = static_cast<uint32_t>(magnitude_.size());
+  std::vector<float>& plane = planes_.emplace_back(rows);
   double energy = 0;
-  for (uint32_t row = 0; row < graph_.size(); ++row) {
-    const float prediction = predict(row, plane.data());
-    const uint32_t step = step_of(row);
+  for (uint32_t row = 0; row < rows; ++row) {
+    const float prediction = options_.predict ? predict(row, plane.data()) : 0;
     const Surroundings around = surroundings(row);
     MagnitudeModel::Bins bins(model_, around);
-    const int64_t n = residual(row, prediction, step, bins);
-    const float correction = static_cast<float>(n) * (static_cast<float>(step) / 65536.0f);
-    plane[row] = prediction + correction;
-    // The coarse quarter does not count: its few large residuals say nothing of the rest.
-    if (row >= graph_.size() / 4)
-      energy += static_cast<double>(correction) * static_cast<double>(correction);
-    note(row, n, step);
+    const int64_t n = residual(row, prediction, around.step, bins);
+    float value = prediction;
+    if (n != 0) {
+      const float correction = static_cast<float>(n) * (static_cast<float>(around.step) / 65536.0f);
+      value += correction;
+      // The coarse quarter does not count: its few large residuals say nothing of the rest.
+      if (row >= rows / 4)
+        energy += static_cast<double>(correction) * static_cast<double>(correction);
+      note(row, n);
+    }
+    recent_ -= recent_ / kRecent;
+    plane[row] = value;
+    if (options_.adaptive) estimator_.note(row, value, n == 0);
   }
   finish_component(energy);
 }

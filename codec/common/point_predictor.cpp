@@ -282,7 +282,7 @@ void PointPredictor::guess(size_t axis, GuessMixture& out) const {
       parallelograms_ > 0 ? 1 + std::min(parallelograms_, 3u) : (neighbour_count_ > 1 ? 1 : 0);
   const auto kind = [&](Kind k) { return k * 5 + situation; };
   const double scale = this->scale(axis);
-  add_guess(kind(kMean), base_[axis], scale, out);
+  if (parallelograms_ < 2) add_guess(kind(kMean), base_[axis], scale, out);
   add_guess(kind(kFittedBySpread), fitted_[axis], spread_, out);
   if (neighbour_count_ == 0) add_guess(kind(kLast), base_[axis], scale, out);
   for (const auto& place : twin_places_) {

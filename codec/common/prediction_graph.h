@@ -47,6 +47,14 @@ struct RowLinks {
 };
 RowLinks link_rings(const PredictionGraph& graph);
 
+/// Rows that each row is a neighbour of: of row r, to[begin[r] .. begin[r+1]), each times 2, plus 1
+/// where r is in its ring.
+struct RowUses {
+  std::vector<uint32_t> begin;
+  std::vector<uint32_t> to;
+};
+RowUses find_uses(const PredictionGraph& graph);
+
 struct SurfaceGraph {
   PredictionGraph graph;
   std::vector<uint32_t> order;  ///< row -> vertex of the reference mesh

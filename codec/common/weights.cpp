@@ -107,12 +107,7 @@ void WeightEstimator::observe_reference(const GridPoints& points,
   std::fill(stale_.begin(), stale_.end(), uint8_t{0});
 }
 
-void WeightEstimator::observe(const std::vector<float>& values,
-                              const std::vector<uint32_t>& residuals, double noise) {
-  for (uint32_t r = 0; r < graph_.size(); ++r) {
-    values_[size_t{r} * kObservations + observations_] = values[r];
-    if (residuals[r] != 0) stale_[r] = 1;
-  }
+void WeightEstimator::observe(double noise) {
   scale_[observations_++] = 1.0 / std::sqrt(noise);
   if (observations_ < kObservations) return;
   parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {

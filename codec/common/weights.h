@@ -37,10 +37,16 @@ class WeightEstimator {
   /// observed yet.
   void observe_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
-  /// Learns from one decoded component (`values`, one per row), whose residuals had the given
-  /// variance. Rows whose `residuals` are not 0 become stale.
-  void observe(const std::vector<float>& values, const std::vector<uint32_t>& residuals,
-               double noise);
+  /// The row's value in the component being decoded, and whether it was predicted `exactly`: a row
+  /// that was not becomes stale.
+  void note(uint32_t row, float value, bool exactly) {
+    values_[size_t{row} * kObservations + observations_] = value;
+    if (!exactly) stale_[row] = 1;
+  }
+
+  /// Learns from the component, all of whose rows are noted and whose residuals had the given
+  /// variance.
+  void observe(double noise);
 
   /// Lets all that is observed count `factor` times as much; all rows become stale.
   void fade(double factor);

@@ -1,5 +1,7 @@
 #include "codec/dec/group_decoder.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -15,12 +17,15 @@ namespace {
 /// Decodes the next component of a field; false when the bytes do not suffice or a value is beyond
 /// binary32.
 bool decode_component(Field& field, BinaryDecoder& decoder) {
+  BinaryDecoder local = decoder;  // of which the compiler knows that nothing else changes it
   field.code_component([&](uint32_t, float, uint32_t, MagnitudeModel::Bins& bins) {
-    return field.model().code(decoder, bins, 0);
+    return field.model().code(local, bins, 0);
   });
-  for (const float x : field.plane(field.component_count() - 1)) {
-    if (!std::isfinite(x)) return false;
-  }
+  decoder = local;
+  uint32_t largest = 0;
+  for (const float x : field.plane(field.component_count() - 1))
+    largest = std::max(largest, std::bit_cast<uint32_t>(x) & 0x7FFFFFFF);
+  if (!std::isfinite(std::bit_cast<float>(largest))) return false;
   return !decoder.overrun();
 }
 

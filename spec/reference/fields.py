@@ -186,7 +186,7 @@ class Field:
 
     def note(self, r, n, step):
         """Section 5."""
-        magnitude = min((min(abs(n), 1 << 32) * step) >> 8, 1 << 24)
+        magnitude = min((min(abs(n), 1 << 32) * step) >> 8, (1 << 24) - 1)
         self.magnitude[r] = magnitude
         self.recent += magnitude
         self.recent -= self.recent // 4

@@ -187,7 +187,8 @@ class PointDecoder:
             for k in range(axis):
                 along = along + L[axis][k] * z[k]
 
-            guesses = [guess(situation, base, sigma), guess(10 + situation, fitted, spread)]
+            guesses = [guess(situation, base, sigma)] if n_P < 2 else []
+            guesses.append(guess(10 + situation, fitted, spread))
             if not near:
                 guesses.append(guess(25 + situation, base, sigma))
             for c in candidates:

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "codec/common/prediction_graph.h"
 #include "tests/codec/shapes.h"
@@ -96,6 +97,22 @@ TEST_CASE("links are the rings in both directions", "[surface_graph]") {
       REQUIRE(links.begin[r] <= links.begin[r + 1]);
       for (uint32_t i = links.begin[r]; i < links.begin[r + 1]; ++i)
         found.emplace(r, links.links[i]);
+    }
+    CHECK(found == expected);
+  }
+}
+
+TEST_CASE("uses are the neighbours seen from the other side", "[surface_graph]") {
+  for (const Built& b : all_built()) {
+    INFO(b.name);
+    const PredictionGraph& g = b.surface.graph;
+    const RowUses uses = find_uses(g);
+    std::multiset<std::tuple<uint32_t, uint32_t, bool>> expected, found;
+    for (uint32_t r = 0; r < g.size(); ++r) {
+      for (uint32_t i = 0; i < g.rows[r].count; ++i)
+        expected.emplace(g.rows[r].neighbour[i], r, i < g.rows[r].ring);
+      for (uint32_t i = uses.begin[r]; i < uses.begin[r + 1]; ++i)
+        found.emplace(r, uses.to[i] / 2, uses.to[i] % 2 != 0);
     }
     CHECK(found == expected);
   }

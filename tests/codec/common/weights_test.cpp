@@ -81,13 +81,18 @@ Eigen::VectorXd best_weights(const Fixture& f, uint32_t r, const WeightOptions& 
   return a.fullPivLu().solve(b).head(n);
 }
 
+void observe(WeightEstimator& estimator, const std::vector<float>& plane, bool exactly,
+             double noise) {
+  for (uint32_t r = 0; r < plane.size(); ++r) estimator.note(r, plane[r], exactly);
+  estimator.observe(noise);
+}
+
 std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsigned threads,
                             bool reference = false) {
   WeightEstimator estimator(f.surface.graph, options, threads);
   if (reference) estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
-  const std::vector<uint32_t> residuals(f.surface.graph.size(), 1);
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    estimator.observe(f.planes[o], residuals, f.noise[o]);
+    observe(estimator, f.planes[o], false, f.noise[o]);
     if (o % 2 == 1) estimator.solve();  // observations add up over several solves
   }
   estimator.solve();
@@ -235,16 +240,16 @@ TEST_CASE("weights of rows predicted without error need not be solved for", "[we
     lazy.solve();
     eager.solve();
     std::vector<float> plane(rows);
-    std::vector<uint32_t> residuals(rows);
     for (uint32_t r = 0; r < rows; ++r) {
       const PredictionGraph::Row& row = f.surface.graph.rows[r];
       for (uint32_t i = 0; i < row.count; ++i)
         plane[r] += lazy.weights(r)[i] * plane[row.neighbour[i]];
-      residuals[r] = r < 20 || random() % 8 == 0 ? 1 : 0;
-      if (residuals[r] != 0) plane[r] += std::round(f.planes[o][r]);
+      const bool exactly = r >= 20 && random() % 8 != 0;
+      if (!exactly) plane[r] += std::round(f.planes[o][r]);
+      lazy.note(r, plane[r], exactly);
     }
-    lazy.observe(plane, residuals, f.noise[o]);
-    eager.observe(plane, std::vector<uint32_t>(rows, 1), f.noise[o]);
+    lazy.observe(f.noise[o]);
+    observe(eager, plane, false, f.noise[o]);
     for (size_t i = 0; i < size_t{rows} * kMaxNeighbours; ++i)
       REQUIRE(lazy.weights(0)[i] == Approx(eager.weights(0)[i]).margin(1e-4));
   }
@@ -253,9 +258,8 @@ TEST_CASE("weights of rows predicted without error need not be solved for", "[we
 TEST_CASE("faded observations count less", "[weights]") {
   Fixture f(torus(16, 11));
   WeightEstimator faded(f.surface.graph, {}, 1);
-  const std::vector<uint32_t> residuals(f.surface.graph.size(), 0);
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    faded.observe(f.planes[o], residuals, f.noise[o]);
+    observe(faded, f.planes[o], true, f.noise[o]);
     f.noise[o] *= 4;
   }
   faded.fade(0.25);
