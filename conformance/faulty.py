@@ -420,7 +420,7 @@ def add_sections(m):
             ("plain_no_positions", "A plain mesh without positions.", dict(position=b"")),
             ("plain_half_word", "Half a word at the end of a lane section.", dict(position=position + b"\0")),
             ("plain_long_tables", "Tables longer than their section.", dict(position=b"\xFF" * 4 + position[4:])),
-            ("plain_frequencies", "Frequencies that sum up to more than 2048.",
+            ("plain_frequencies", "Frequencies that sum up to more than 1024.",
              dict(position=struct.pack("<II", 100, 0) + bytes(100) + position[8:])),
             ("plain_short_order", "Half of the order of a plain mesh.", dict(order=order[:len(order) // 4 * 2]))):
         m.add(name, "corrupt", sentence, fast.edited(b"REFM", **changes))
@@ -428,8 +428,6 @@ def add_sections(m):
     m.add("fast_short_coefficients", "corrupt", "Half of a coefficient section of the fast profile.",
           fast.edited(b"GRUP", coefficients=h["coefficients"][:len(h["coefficients"]) // 4 * 2]))
     m.add("fast_no_basis", "corrupt", "No basis section in the fast profile.", fast.edited(b"GRUP", basis=b""))
-    m.add("fast_on_other_mesh", "corrupt", "A group of the fast profile on a mesh that is not plain.",
-          file.edited(b"GRUP", profile=b"\1"))
     m.add("main_on_plain_mesh", "corrupt", "A group of the main profile on a plain mesh.",
           fast.edited(b"GRUP", profile=b"\0"))
     listed = File(m.sound("listed_faces"))

@@ -122,7 +122,7 @@ std::vector<uint8_t> RansEncoder::finish() const {
   append_u32(out, static_cast<uint32_t>(raw.bytes().size()));
   out.insert(out.end(), table_bytes.begin(), table_bytes.end());
   out.insert(out.end(), raw.bytes().begin(), raw.bytes().end());
-  for (const uint32_t x : state) append_u32(out, x);
+  for (uint32_t l = 0; l < lanes_; ++l) append_u32(out, state[l]);
   for (size_t i = words.size(); i-- > 0;) {
     out.push_back(static_cast<uint8_t>(words[i]));
     out.push_back(static_cast<uint8_t>(words[i] >> 8));
@@ -130,13 +130,12 @@ std::vector<uint8_t> RansEncoder::finish() const {
   return out;
 }
 
-bool RansDecoder::open(std::span<const uint8_t> section) {
+bool RansDecoder::open(std::span<const uint8_t> section, uint32_t lanes) {
   constexpr size_t kFront = 8;
-  constexpr size_t kStates = 4 * kRansLanes;
   if (section.size() < kFront) return false;
   const uint64_t table_bytes = read_u32(section.data());
   const uint64_t raw_bytes = read_u32(section.data() + 4);
-  const uint64_t fixed = kFront + table_bytes + raw_bytes + kStates;
+  const uint64_t fixed = kFront + table_bytes + raw_bytes + uint64_t{4} * lanes;
   if (fixed > section.size() || (section.size() - fixed) % 2 != 0) return false;
   BinaryDecoder table_coder(section.subspan(kFront, table_bytes));
   RansTables tables(kRansClasses);
@@ -151,16 +150,14 @@ bool RansDecoder::open(std::span<const uint8_t> section) {
   raw_ = section.subspan(kFront + table_bytes, raw_bytes);
   bit_at_ = 0;
   const uint8_t* at = section.data() + kFront + table_bytes + raw_bytes;
-  for (uint32_t& x : state_) {
-    x = read_u32(at);
-    at += 4;
-  }
-  end_ = (section.size() - fixed) / 2;
-  words_.assign(end_ + kRansLanes, 0);
-  for (size_t i = 0; i < end_; ++i, at += 2) words_[i] = static_cast<uint16_t>(at[0] | at[1] << 8);
-  slot_ = slots_.data();
-  word_ = words_.data();
-  at_ = 0;
+  cursor_ = {};
+  for (uint32_t l = 0; l < lanes; ++l, at += 4) cursor_.state[l] = read_u32(at);
+  cursor_.end = (section.size() - fixed) / 2;
+  words_.assign(cursor_.end + kRansLanes, 0);
+  for (size_t i = 0; i < cursor_.end; ++i, at += 2)
+    words_[i] = static_cast<uint16_t>(at[0] | at[1] << 8);
+  cursor_.slots = slots_.data();
+  cursor_.words = words_.data();
   overrun_ = false;
   return true;
 }

@@ -1,6 +1,7 @@
 // Asymmetric numeral systems (Duda's rANS) for symbols of a few classes with static frequencies:
-// kRansLanes coders share one sequence of 16-bit words, so that a decoder works on as many symbols
-// at once. Half the speed of copying memory, where the adaptive coders take ten times as long.
+// up to kRansLanes coders share one sequence of 16-bit words, so that a decoder works on as many
+// symbols at once. Half the speed of copying memory, where the adaptive coders take ten times as
+// long.
 //
 // A section holds integers. Each is a symbol (sign and bucket of its magnitude) and, for larger
 // magnitudes, raw bits.
@@ -14,8 +15,8 @@
 
 namespace reeb {
 
-inline constexpr uint32_t kRansLanes = 8;
-inline constexpr uint32_t kRansBits = 11;  ///< frequencies of a class sum to 2^kRansBits
+inline constexpr uint32_t kRansLanes = 16;
+inline constexpr uint32_t kRansBits = 10;  ///< frequencies of a class sum to 2^kRansBits
 inline constexpr uint32_t kRansClasses = 20;
 inline constexpr uint32_t kRansSymbols = 123;
 inline constexpr uint32_t kRansMaxMagnitude = (1u << 30) - 1;
@@ -40,6 +41,8 @@ constexpr uint32_t rans_symbol(int32_t n) {
   return 2 * rans_bucket::of(magnitude) - (n < 0 ? 1 : 0);
 }
 constexpr uint32_t rans_symbol_bucket(uint32_t symbol) { return (symbol + 1) / 2; }
+inline constexpr uint32_t kRansLastSingle =
+    2 * (rans_bucket::kSingles - 1);  ///< symbols beyond have raw bits
 
 /// Frequencies of one class; all zero for a class that does not occur.
 using RansFrequencies = std::array<uint16_t, kRansSymbols>;
@@ -51,7 +54,10 @@ RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& count
 /// Gathers integers in coding order, then writes the section.
 class RansEncoder {
  public:
-  /// `lane` < kRansLanes, `cls` < kRansClasses, |n| <= kRansMaxMagnitude.
+  /// `lanes` <= kRansLanes.
+  explicit RansEncoder(uint32_t lanes) : lanes_(lanes) {}
+
+  /// `lane` < lanes, `cls` < kRansClasses, |n| <= kRansMaxMagnitude.
   void put(uint32_t lane, uint32_t cls, int32_t n) {
     items_.push_back({n, static_cast<uint8_t>(lane), static_cast<uint8_t>(cls)});
   }
@@ -70,7 +76,17 @@ class RansEncoder {
     uint8_t lane;
     uint8_t cls;
   };
+  uint32_t lanes_;
   std::vector<Item> items_;
+};
+
+/// Where a decoder stands.
+struct RansCursor {
+  uint32_t state[kRansLanes] = {};
+  const uint32_t* slots = nullptr;  ///< [class][2^kRansBits]: symbol, place in its range, frequency
+  const uint16_t* words = nullptr;
+  size_t at = 0;   ///< next word; kRansLanes words from there may be read
+  size_t end = 0;  ///< the words that are there
 };
 
 /// Reads a section. Damaged bytes give any integers but never a read beyond them. What is called
@@ -78,21 +94,21 @@ class RansEncoder {
 /// the linker must not choose one.
 class RansDecoder {
  public:
-  /// False where the front of the section is malformed.
-  bool open(std::span<const uint8_t> section);
+  /// False where the front of the section, of `lanes` <= kRansLanes, is malformed.
+  bool open(std::span<const uint8_t> section, uint32_t lanes);
 
   /// The next integer; lanes and classes as the encoder put them. At most kRansLanes calls between
   /// calls of `settle`.
   [[gnu::always_inline]] int32_t get(uint32_t lane, uint32_t cls) {
-    uint32_t x = state_[lane];
-    const uint32_t slot = slot_[(cls << kRansBits) | (x & ((1u << kRansBits) - 1))];
+    uint32_t x = cursor_.state[lane];
+    const uint32_t slot = cursor_.slots[(cls << kRansBits) | (x & ((1u << kRansBits) - 1))];
     x = (slot & 0xFFF) * (x >> kRansBits) + (slot >> 12 & 0xFFF);
     const bool low = x < 1u << 16;
-    x = low ? x << 16 | word_[at_] : x;
-    at_ += low ? 1 : 0;
-    state_[lane] = x;
+    x = low ? x << 16 | cursor_.words[cursor_.at] : x;
+    cursor_.at += low ? 1 : 0;
+    cursor_.state[lane] = x;
     const uint32_t symbol = slot >> 24;
-    if (symbol > 2 * rans_bucket::kSingles - 2) return large(symbol);
+    if (symbol > kRansLastSingle) return large(symbol);
     return static_cast<int32_t>(symbol >> 1) ^ -static_cast<int32_t>(symbol & 1);
   }
 
@@ -105,25 +121,24 @@ class RansDecoder {
 
   /// Keeps the place within the words.
   [[gnu::always_inline]] void settle() {
-    if (at_ > end_) {
-      at_ = end_;
+    if (cursor_.at > cursor_.end) {
+      cursor_.at = cursor_.end;
       overrun_ = true;
     }
   }
+
+  /// For kernels that decode all lanes at once, as `get` does one after another.
+  RansCursor& cursor() { return cursor_; }
+  /// The integer of a symbol above kRansLastSingle, whose raw bits are next.
+  int32_t large(uint32_t symbol);
 
   /// True once more was read than there is.
   bool overrun() const { return overrun_ || bit_at_ > 8 * uint64_t{raw_.size()}; }
 
  private:
-  int32_t large(uint32_t symbol);
-
-  uint32_t state_[kRansLanes] = {};
-  const uint32_t* slot_ = nullptr;
-  const uint16_t* word_ = nullptr;
-  std::vector<uint32_t> slots_;  ///< [class][2^kRansBits]: symbol, place in its range, frequency
+  RansCursor cursor_;
+  std::vector<uint32_t> slots_;
   std::vector<uint16_t> words_;  ///< and as many zeros behind them as may be read before `settle`
-  size_t at_ = 0;
-  size_t end_ = 0;
   std::span<const uint8_t> raw_;
   uint64_t bit_at_ = 0;
   bool overrun_ = false;

@@ -10,6 +10,7 @@ constexpr uint32_t kBaseSize = 64;      ///< stop at this many vertices
 constexpr uint32_t kMaxValence = 9;     ///< of a removed vertex
 constexpr uint32_t kMinProgress = 200;  ///< stop when a level removes fewer than one in this many
 constexpr uint32_t kBaseNeighbours = 4;
+constexpr uint32_t kMostAround = 12;  ///< neighbours of a row: more gain little and take time
 
 /// The neighbours of a vertex. One that has more than there is room for stays to the end.
 struct Around {
@@ -105,7 +106,7 @@ class Contraction {
       for (uint32_t j = 0; j < a.size; ++j) meet(a.vertex[j], row);
     }
     for (const uint32_t u : once_) {
-      if (row.count == kMaxNeighbours) break;
+      if (row.count >= kMostAround) break;
       if (met_[u] == mark_) row.neighbour[row.count++] = u;
     }
   }
@@ -116,7 +117,7 @@ class Contraction {
       once_.push_back(u);
     } else if (met_[u] == mark_) {
       met_[u] = mark_ + 1;
-      if (row.count < kMaxNeighbours) row.neighbour[row.count++] = u;
+      if (row.count < kMostAround) row.neighbour[row.count++] = u;
     }
   }
 

@@ -88,7 +88,7 @@ struct FrameBasis {
 /// sum of the narrow products, which is within 32 bits); mean + sum in binary64, rounded.
 using CombineKernel = void (*)(const ComponentTile& tile, const FrameBasis& basis, float* xyz);
 
-/// What the kernels see of a LaneField: eight components of all rows.
+/// What the kernels see of a LaneField: a block of components of all rows.
 struct LaneBlock {
   const uint32_t* neighbours = nullptr;  ///< kMaxNeighbours a row
   const float* weights = nullptr;        ///< the same
@@ -99,11 +99,12 @@ struct LaneBlock {
   float* values = nullptr;               ///< [row][lane]
   uint16_t* magnitudes = nullptr;        ///< [row][lane]
   uint32_t running[kRansLanes] = {};     ///< decaying means of the magnitudes, in 1/256
+  uint32_t before[kRansLanes] = {};      ///< the same without the last row
   uint32_t row_count = 0;
   bool whole = false;  ///< predictions are rounded to integers
 };
 
-/// Prediction and context class of a row's eight components.
+/// Prediction and context class of a row's components.
 struct LaneGuess {
   float prediction[kRansLanes];
   uint32_t cls[kRansLanes];

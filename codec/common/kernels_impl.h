@@ -14,6 +14,13 @@ namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
 
+template <class V, class T>
+inline V load(const T* from) {
+  V out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
 /// As many integers as floats in a register, and what holds as many doubles.
 using Words = int32_t __attribute__((vector_size(kFloats * sizeof(float))));
 using Doubles = double __attribute__((vector_size(kFloats * sizeof(double))));
@@ -40,11 +47,10 @@ constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
 inline void add_wide(const ComponentTile& tile, const FrameBasis& basis, uint32_t first,
                      Floats (*sum)[kVectors]) {
   for (uint32_t k = 0; k < tile.wide_count; ++k) {
-    Floats values[kVectors];
-    std::memcpy(values, tile.wide + size_t{k} * kTileRows + first, sizeof values);
-    for (uint32_t a = 0; a < 3; ++a) {
-      for (uint32_t j = 0; j < kVectors; ++j)
-        sum[a][j] += basis.wide[a * tile.wide_count + k] * values[j];
+    const float* at = tile.wide + size_t{k} * kTileRows + first;
+    for (uint32_t j = 0; j < kVectors; ++j) {
+      const auto values = load<Floats>(at + j * kFloats);
+      for (uint32_t a = 0; a < 3; ++a) sum[a][j] += basis.wide[a * tile.wide_count + k] * values;
     }
   }
 }
@@ -52,11 +58,11 @@ inline void add_wide(const ComponentTile& tile, const FrameBasis& basis, uint32_
 inline void add_narrow(const ComponentTile& tile, const FrameBasis& basis, uint32_t first,
                        Words (*sum)[kVectors]) {
   for (uint32_t k = 0; k < tile.pair_count; ++k) {
-    Words values[kVectors];
-    std::memcpy(values, tile.narrow + size_t{k} * kTileRows + first, sizeof values);
-    for (uint32_t a = 0; a < 3; ++a) {
-      for (uint32_t j = 0; j < kVectors; ++j)
-        sum[a][j] = add_products(sum[a][j], values[j], basis.narrow[a * tile.pair_count + k]);
+    const uint32_t* at = tile.narrow + size_t{k} * kTileRows + first;
+    for (uint32_t j = 0; j < kVectors; ++j) {
+      const auto values = load<Words>(at + j * kFloats);
+      for (uint32_t a = 0; a < 3; ++a)
+        sum[a][j] = add_products(sum[a][j], values, basis.narrow[a * tile.pair_count + k]);
     }
   }
 }
@@ -87,11 +93,25 @@ using LanesI = int32_t __attribute__((vector_size(kRansLanes * 4)));
 using LanesU = uint32_t __attribute__((vector_size(kRansLanes * 4)));
 using LanesF = float __attribute__((vector_size(kRansLanes * 4)));
 
-template <class V, class T>
-inline V load(const T* from) {
-  V out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
+template <class T, uint32_t kCount>
+struct VectorOf {
+  typedef T Type __attribute__((vector_size(kCount * sizeof(T))));
+};
+
+/// Element by element. In halves without AVX-512: of vectors wider than the processor's GCC 12
+/// converts single elements.
+template <class To, class From, uint32_t kCount = kRansLanes>
+inline typename VectorOf<To, kCount>::Type convert(
+    const typename VectorOf<From, kCount>::Type& from) {
+#if defined(__AVX512F__)
+  return __builtin_convertvector(from, typename VectorOf<To, kCount>::Type);
+#else
+  typename VectorOf<From, kCount / 2>::Type in[2];
+  std::memcpy(in, &from, sizeof in);
+  using Half = typename VectorOf<To, kCount / 2>::Type;
+  const Half out[2] = {__builtin_convertvector(in[0], Half), __builtin_convertvector(in[1], Half)};
+  return load<typename VectorOf<To, kCount>::Type>(out);
+#endif
 }
 
 inline LanesF predict_lanes(const LaneBlock& b, uint32_t row) {
@@ -111,32 +131,31 @@ inline LanesF predict_lanes(const LaneBlock& b, uint32_t row) {
 inline LanesU classify_lanes(const LaneBlock& b, uint32_t row) {
   const uint32_t* neighbour = b.neighbours + size_t{row} * kMaxNeighbours;
   const uint32_t ring = b.rings[row];
-  const LanesU running = load<LanesU>(b.running) >> 4;
+  const LanesU running = load<LanesU>(b.before) >> 4;
   LanesU near = running;
   if (ring > 0) {
-    LanesU sum{};
-    for (uint32_t i = 0; i < ring; ++i) {
-      const auto m = load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes);
-      sum += __builtin_convertvector(m, LanesU);
-    }
-    near = sum * (65536 / ring) >> 12;
+    Lanes16 sum{};
+    for (uint32_t i = 0; i < ring; ++i)
+      sum += load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes);
+    near = convert<uint32_t, uint16_t>(sum) * (65536 / ring) >> 12;
   }
   const LanesU expected = b.history != nullptr ? (3 * near + 3 * running + 10 * b.history[row]) >> 4
                                                : (10 * near + 6 * running) >> 4;
-  const LanesF size = __builtin_convertvector(reinterpret_cast<LanesI>(expected + 1), LanesF);
+  const LanesF size = convert<float, int32_t>(reinterpret_cast<LanesI>(expected + 1));
   const LanesU cls = (reinterpret_cast<LanesU>(size) >> 22) - 254;
   return cls < kRansClasses - 1 ? cls : LanesU{} + (kRansClasses - 1);
 }
 
 inline void note_vectors(LaneBlock& b, uint32_t row, LanesF prediction, LanesI n) {
-  constexpr int32_t kMostMagnitude = 1023;
-  const LanesF value = prediction + __builtin_convertvector(n, LanesF) * b.steps[row];
+  constexpr int32_t kMostMagnitude = 255;
+  const LanesF value = prediction + convert<float, int32_t>(n) * b.steps[row];
   std::memcpy(b.values + size_t{row} * kRansLanes, &value, sizeof value);
   const LanesI size = n < 0 ? -n : n;
   const LanesI capped = size < kMostMagnitude ? size : LanesI{} + kMostMagnitude;
-  const auto magnitude = __builtin_convertvector(capped, Lanes16);
+  const auto magnitude = convert<uint16_t, int32_t>(capped);
   std::memcpy(b.magnitudes + size_t{row} * kRansLanes, &magnitude, sizeof magnitude);
   LanesU running = load<LanesU>(b.running);
+  std::memcpy(b.before, &running, sizeof running);
   running += reinterpret_cast<LanesU>(capped) * 32 - (running >> 3);
   std::memcpy(b.running, &running, sizeof running);
 }
@@ -154,16 +173,83 @@ void note_lanes(LaneBlock& b, uint32_t row, const LaneGuess& guess, const int32_
   note_vectors(b, row, load<LanesF>(guess.prediction), load<LanesI>(n));
 }
 
+#if defined(__AVX512VNNI__)
+/// RansDecoder::get for all lanes at once. Intrinsics without a mask would leave GCC 12 in doubt
+/// whether their results are initialised.
+class LaneDecoder {
+ public:
+  LaneDecoder(RansDecoder& decoder, uint32_t lanes)
+      : decoder_(decoder),
+        lanes_(static_cast<__mmask16>((1u << lanes) - 1)),
+        state_(load<LanesU>(decoder.cursor().state)) {}
+  ~LaneDecoder() { std::memcpy(decoder_.cursor().state, &state_, sizeof state_); }
+  LaneDecoder(const LaneDecoder&) = delete;
+  LaneDecoder& operator=(const LaneDecoder&) = delete;
+
+  [[gnu::always_inline]] LanesI get(const LanesU& cls) {
+    constexpr __mmask16 kAll = 0xFFFF;
+    RansCursor& cursor = decoder_.cursor();
+    const LanesU index = (cls << kRansBits) | (state_ & ((1u << kRansBits) - 1));
+    const auto slot = reinterpret_cast<LanesU>(_mm512_mask_i32gather_epi32(
+        _mm512_setzero_si512(), kAll, reinterpret_cast<__m512i>(index), cursor.slots, 4));
+    const LanesU x = (slot & 0xFFF) * (state_ >> kRansBits) + (slot >> 12 & 0xFFF);
+    const __mmask16 low = _mm512_mask_cmplt_epu32_mask(lanes_, reinterpret_cast<__m512i>(x),
+                                                       _mm512_set1_epi32(1 << 16));
+    const __m512i words = _mm512_maskz_cvtepu16_epi32(
+        kAll, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(cursor.words + cursor.at)));
+    const __m512i next =
+        _mm512_mask_or_epi32(reinterpret_cast<__m512i>(x), low, reinterpret_cast<__m512i>(x << 16),
+                             _mm512_maskz_expand_epi32(low, words));
+    state_ = reinterpret_cast<LanesU>(
+        _mm512_mask_mov_epi32(reinterpret_cast<__m512i>(state_), lanes_, next));
+    cursor.at += static_cast<uint32_t>(__builtin_popcount(low));
+    decoder_.settle();
+    return integers(reinterpret_cast<LanesU>(
+        _mm512_maskz_mov_epi32(lanes_, reinterpret_cast<__m512i>(slot >> 24))));
+  }
+
+ private:
+  [[gnu::always_inline]] LanesI integers(const LanesU& symbol) {
+    auto out = reinterpret_cast<LanesI>((symbol >> 1) ^ -(symbol & 1));
+    uint32_t large = _mm512_cmpgt_epu32_mask(reinterpret_cast<__m512i>(symbol),
+                                             _mm512_set1_epi32(kRansLastSingle));
+    for (; large != 0; large &= large - 1) {
+      const auto lane = static_cast<uint32_t>(__builtin_ctz(large));
+      out[lane] = decoder_.large(symbol[lane]);
+    }
+    return out;
+  }
+
+  RansDecoder& decoder_;
+  __mmask16 lanes_;
+  LanesU state_;
+};
+#else
+/// RansDecoder::get for one lane after another.
+class LaneDecoder {
+ public:
+  LaneDecoder(RansDecoder& decoder, uint32_t lanes) : decoder_(decoder), lanes_(lanes) {}
+
+  [[gnu::always_inline]] LanesI get(const LanesU& classes) {
+    uint32_t cls[kRansLanes];
+    std::memcpy(cls, &classes, sizeof cls);
+    int32_t n[kRansLanes] = {};
+    for (uint32_t l = 0; l < lanes_; ++l) n[l] = decoder_.get(l, cls[l]);
+    decoder_.settle();
+    return load<LanesI>(n);
+  }
+
+ private:
+  RansDecoder& decoder_;
+  uint32_t lanes_;
+};
+#endif
+
 void decode_lanes(LaneBlock& b, RansDecoder& decoder, uint32_t lanes) {
-  alignas(32) int32_t n[kRansLanes] = {};
-  alignas(32) uint32_t cls[kRansLanes];
+  LaneDecoder coder(decoder, lanes);
   for (uint32_t row = 0; row < b.row_count; ++row) {
     const LanesF prediction = predict_lanes(b, row);
-    const LanesU classes = classify_lanes(b, row);
-    std::memcpy(cls, &classes, sizeof cls);
-    for (uint32_t l = 0; l < lanes; ++l) n[l] = decoder.get(l, cls[l]);
-    decoder.settle();
-    note_vectors(b, row, prediction, load<LanesI>(n));
+    note_vectors(b, row, prediction, coder.get(classify_lanes(b, row)));
   }
 }
 

@@ -35,14 +35,15 @@ void LaneField::begin_block() {
   std::fill(values_.begin(), values_.end(), 0.0f);
   std::fill(magnitudes_.begin(), magnitudes_.end(), uint16_t{0});
   std::fill(std::begin(block_.running), std::end(block_.running), 0u);
+  std::fill(std::begin(block_.before), std::end(block_.before), 0u);
 }
 
 void LaneField::end_block(uint32_t lanes, Planes& planes) {
   for (uint32_t r = 0; r < rows(); ++r) {
     uint32_t sum = 0;
     for (uint32_t l = 0; l < kRansLanes; ++l) sum += magnitudes_[r * kRansLanes + l];
-    const uint32_t mean = 2 * sum;  // in 1/16
-    history_[r] = block_.history == nullptr ? mean : (history_[r] + 3 * mean) / 4;
+    // The mean in 1/16, of half as many lanes in the first block.
+    history_[r] = block_.history == nullptr ? 2 * sum : (history_[r] + 3 * sum) / 4;
   }
   block_.history = history_.data();
   for (uint32_t l = 0; l < lanes; ++l) {
@@ -54,9 +55,9 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
 bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, LaneField& field,
                        LaneField::Planes& planes, const StopToken& stop) {
   RansDecoder decoder;
-  if (!decoder.open(section)) return false;
-  for (uint32_t k = 0; k < components; k += kRansLanes) {
-    const uint32_t lanes = std::min(kRansLanes, components - k);
+  if (!decoder.open(section, std::min(kRansLanes, components))) return false;
+  for (uint32_t k = 0, lanes = 0; k < components; k += lanes) {
+    lanes = lanes_of_block(k, components);
     field.begin_block();
     field.decode_rows(decoder, lanes);
     field.end_block(lanes, planes);

@@ -1,8 +1,9 @@
-// Coding of a field in the fast profile: eight components at a time, row after row, weights fixed
+// Coding of a field in the fast profile: sixteen components at a time, row after row, weights fixed
 // before the first. A row's components do not depend on each other, so they are predicted in one
 // vector and decoded by as many interleaved coders. Encoder and decoder run this same code.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,12 @@ struct LaneFieldOptions {
                        ///< steps are 1
 };
 
+/// How many of `count` components the block has that starts with component k. The first block is
+/// small, since nothing is known of the rows before it.
+constexpr uint32_t lanes_of_block(uint32_t k, uint32_t count) {
+  return std::min(k == 0 ? kRansLanes / 2 : kRansLanes, count - k);
+}
+
 class LaneField {
  public:
   using Planes = std::vector<std::vector<float>>;
@@ -29,7 +36,7 @@ class LaneField {
   LaneField(const PredictionGraph& graph, std::span<const float> weights,
             const LaneFieldOptions& options);
 
-  /// Starts the next kRansLanes components.
+  /// Starts the next block.
   void begin_block();
   /// What the row's neighbours tell of the row.
   LaneGuess guess(uint32_t row) const { return kernels_.guess_lanes(block_, row); }

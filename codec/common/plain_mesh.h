@@ -25,7 +25,7 @@ bool code_index_steps(Coder& coder, std::vector<uint32_t>& output_index) {
   uint32_t cls = 0;
   for (uint32_t v = 0; v < output_index.size(); ++v) {
     const auto wanted = static_cast<int32_t>(int64_t{output_index[v]} - before - 1);
-    const int32_t step = coder.code(v % kRansLanes, cls, wanted);
+    const int32_t step = coder.code(0, cls, wanted);
     before += 1 + int64_t{step};
     if (before < 0 || before >= count) return false;
     output_index[v] = static_cast<uint32_t>(before);

@@ -144,7 +144,11 @@ Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, uns
   const uint32_t count = chunk.header.component_count;
   bool whole = false;
   if (chunk.header.profile == Profile::kFast) {
-    LaneField field(surface.surface.graph, surface.weights, {});
+    std::vector<float> own;  // of a mesh that is not plain
+    if (surface.weights.empty())
+      own = reference_weights(surface.surface.graph, surface_field_options(Profile::kFast).weights,
+                              GridPoints(surface.grid), surface.surface.order);
+    LaneField field(surface.surface.graph, own.empty() ? surface.weights : own, {});
     whole = decode_lane_field(chunk.coefficients, count, field, planes, stop);
   } else {
     if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
@@ -162,7 +166,7 @@ Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, uns
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop) {
   const GroupHeader& header = chunk.header;
-  if ((header.profile == Profile::kFast) == surface.weights.empty())
+  if (header.profile != Profile::kFast && !surface.weights.empty())
     return Status::corrupt("the group's profile does not fit its reference mesh");
   if (header.profile == Profile::kLossless) {
     state = {};

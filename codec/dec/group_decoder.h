@@ -18,7 +18,7 @@ namespace reeb {
 struct DecodedSurface {
   std::vector<int32_t> grid;  ///< V x 3
   SurfaceGraph surface;
-  std::vector<float> weights;    ///< fast profile: kMaxNeighbours a row; else empty
+  std::vector<float> weights;    ///< of a plain mesh: kMaxNeighbours a row; else empty
   std::vector<uint32_t> output;  ///< row of the surface graph -> vertex in output order
   float origin[3] = {0, 0, 0};   ///< of the grid, world units
   float grid_step = 0;           ///< world units

@@ -77,7 +77,7 @@ Status decode_plain_positions(std::span<const uint8_t> bytes, const PredictionGr
 
 Status decode_index_steps(std::span<const uint8_t> bytes, std::vector<uint32_t>& output_index) {
   RansDecoder decoder;
-  if (!decoder.open(bytes) || !code_index_steps(decoder, output_index) || decoder.overrun())
+  if (!decoder.open(bytes, 1) || !code_index_steps(decoder, output_index) || decoder.overrun())
     return Status::corrupt("mesh: the order is damaged");
   std::vector<bool> taken(output_index.size());
   for (const uint32_t v : output_index) {

@@ -26,8 +26,8 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
     MotionModel model;
     if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
     bool more = true;
-    for (uint32_t k = 0; k < most && more; k += kRansLanes) {
-      const uint32_t lanes = std::min(kRansLanes, most - k);
+    for (uint32_t k = 0, lanes = 0; k < most && more; k += lanes) {
+      lanes = lanes_of_block(k, most);
       std::vector<std::vector<float>> targets;
       std::vector<double> energy;
       for (uint32_t l = 0; l < lanes; ++l) {
@@ -61,12 +61,12 @@ GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     LaneField field(graph, weights, {});
     LaneFieldEncoder encoder(field, graph, thrift_ * kBasisLambda, 0, costs);
-    for (size_t k = 0; k < targets.size(); k += kRansLanes) {
-      const size_t end = std::min(targets.size(), k + kRansLanes);
-      encoder.code_block({targets.begin() + static_cast<std::ptrdiff_t>(k),
-                          targets.begin() + static_cast<std::ptrdiff_t>(end)});
+    const auto count = static_cast<uint32_t>(targets.size());
+    for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
+      lanes = lanes_of_block(k, count);
+      encoder.code_block({targets.begin() + k, targets.begin() + k + lanes});
     }
-    const RansEncoder section = encoder.section(static_cast<uint32_t>(targets.size()));
+    const RansEncoder section = encoder.section(count);
     if (pass + 1 < kPasses) {
       costs = costs_of(section.tables());
       continue;

@@ -92,9 +92,9 @@ std::vector<CodedComponent> LaneFieldEncoder::code_block(
 }
 
 RansEncoder LaneFieldEncoder::section(uint32_t components) const {
-  RansEncoder out;
-  for (uint32_t k = 0; k < components; k += kRansLanes) {
-    const uint32_t lanes = std::min(kRansLanes, components - k);
+  RansEncoder out(std::min(kRansLanes, components));
+  for (uint32_t k = 0, lanes = 0; k < components; k += lanes) {
+    lanes = lanes_of_block(k, components);
     for (uint32_t row = 0; row < field_.rows(); ++row) {
       for (uint32_t l = 0; l < lanes; ++l) out.put(l, items_[k + l][row].cls, items_[k + l][row].n);
     }

@@ -32,7 +32,7 @@ class LaneFieldEncoder {
   LaneFieldEncoder(LaneField& field, const PredictionGraph& graph, double lambda,
                    double mass_exponent, const SymbolCosts& costs);
 
-  /// Codes up to kRansLanes planes; `targets[lane][row]`.
+  /// Codes the next lanes_of_block planes; `targets[lane][row]`.
   std::vector<CodedComponent> code_block(const std::vector<std::vector<float>>& targets);
 
   const LaneField::Planes& planes() const { return planes_; }

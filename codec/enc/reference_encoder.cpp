@@ -199,7 +199,7 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, 
   std::vector<uint32_t> output_index(coding.size());
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
   if (plain) {
-    RansEncoder steps;
+    RansEncoder steps(1);
     code_index_steps(steps, output_index);
     bytes = steps.finish();
     return {};

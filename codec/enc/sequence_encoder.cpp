@@ -28,6 +28,8 @@ constexpr double kThriftRatio = 0.75;   ///< between weights of bits that are tr
 // Squared error in q^2 that a bit is worth where settings are compared: most coefficients are 0, so
 // it is more than the ln(2) / 6 of a fine quantizer.
 constexpr double kErrorPerBit = 0.14;
+constexpr size_t kShort = 64;  ///< frames of a shot whose reference mesh may take longer to decode
+constexpr double kSlowMeshShare = 0.6;  ///< of the size, where that pays
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -216,14 +218,16 @@ void SequenceEncoder::set_regions(uint32_t count) {
   for (auto& shot : shots_) shot->set_regions(count);
 }
 
-Status SequenceEncoder::try_setting(bool& kept) {
+Status SequenceEncoder::try_setting(bool& kept, double share) {
   Attempt a;
   if (Status s = attempt(best_.q, a); !s.ok()) return s;
   const double slope = kErrorPerBit * best_.q * best_.q;
   const auto cost = [&](const Attempt& x) {
     return (bounded() ? 0 : x.squared_error) + slope * 8 * static_cast<double>(x.bytes.size());
   };
-  kept = cost(a) < cost(best_);
+  kept = share < 1
+             ? static_cast<double>(a.bytes.size()) < share * static_cast<double>(best_.bytes.size())
+             : cost(a) < cost(best_);
   if (kept) best_ = std::move(a);
   return {};
 }
@@ -256,6 +260,22 @@ Status SequenceEncoder::refine_grids() {
       }
     }
     if (moved) break;
+  }
+  return {};
+}
+
+// Short sequences spend much on what a plain mesh makes quick to decode: there the mesh of the main
+// profile may halve the size, by coding positions and order better, and isolated vertices.
+Status SequenceEncoder::choose_meshes() {
+  if (options_.profile != Profile::kFast || sequence_.frame_count() > kShort * shots_.size())
+    return {};
+  for (auto& shot : shots_) {
+    if (Status s = shot->set_plain(false); !s.ok()) return s;
+  }
+  bool kept = false;
+  if (Status s = try_setting(kept, kSlowMeshShare); !s.ok()) return s;
+  for (auto& shot : shots_) {
+    if (Status s = shot->set_plain(!kept); !s.ok()) return s;
   }
   return {};
 }
@@ -362,6 +382,7 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
     if (Status s = suit_grids(); !s.ok()) return s;
   }
   if (Status s = refine_grids(); !s.ok()) return s;
+  if (Status s = choose_meshes(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;
   if (Status s = choose_thrift(); !s.ok()) return s;
   if (Status s = finish_search(); !s.ok()) return s;

@@ -61,10 +61,12 @@ class SequenceEncoder {
   Status search_base();
   bool bounded() const { return options_.target == Target::kMaxError; }
   Status refine_grids();
+  Status choose_meshes();
   Status choose_regions();
   Status choose_thrift();
-  /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
-  Status try_setting(bool& kept);
+  /// Tries a setting at the step of `best_`; keeps it where its cost is below `share` of what it
+  /// was, and returns whether it did.
+  Status try_setting(bool& kept, double share = 1);
 
   Status set_grids(double coordinate_error);
   void set_regions(uint32_t count);

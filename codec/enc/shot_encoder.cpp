@@ -49,6 +49,7 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
       first_frame_(first_frame),
       reorder_(options.reorder),
       profile_(options.profile),
+      plain_(options.profile == Profile::kFast),
       bound_(options.target == Target::kMaxError ? options.target_value : 0),
       open_groups_(options.open_groups) {
   const std::vector<uint32_t> lengths =
@@ -101,13 +102,21 @@ Status ShotEncoder::set_grid_bits(uint32_t bits) {
     std::swap(grid_bits_, spare_bits_);
   } else {
     SurfaceContext surface;
-    const ReferenceOptions options{.reorder = reorder_, .plain = profile_ == Profile::kFast};
+    const ReferenceOptions options{
+        .reorder = reorder_, .plain = plain_, .fixed_weights = profile_ == Profile::kFast};
     if (Status s = make_surface_context(shot_, plan_, allowed, options, surface); !s.ok()) return s;
     spare_ = std::exchange(surface_, std::move(surface));
     spare_bits_ = std::exchange(grid_bits_, allowed);
   }
   fit_motion();
   return {};
+}
+
+Status ShotEncoder::set_plain(bool plain) {
+  if (plain == plain_) return {};
+  plain_ = plain;
+  spare_bits_ = 0;
+  return set_grid_bits(std::exchange(grid_bits_, 0));
 }
 
 void ShotEncoder::segment_reference() {

@@ -31,6 +31,9 @@ class ShotEncoder {
   uint32_t grid_bits() const { return grid_bits_; }
   Status set_grid_bits(uint32_t bits);
 
+  /// Fast profile: whether the reference mesh is plain, which it is at first.
+  Status set_plain(bool plain);
+
   /// Gives the motion model `count` regions, or as many as the shape allows; 0 for none.
   void set_regions(uint32_t count);
   /// Gives the motion model the regions of the Reeb graph as they are.
@@ -82,6 +85,7 @@ class ShotEncoder {
   uint32_t first_frame_;
   bool reorder_;
   Profile profile_;
+  bool plain_;
   double bound_;  ///< on the error of every coordinate, world units; 0 = none
   uint32_t open_groups_;
   uint32_t grid_bits_ = 0;

@@ -50,9 +50,6 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
   if (!status.ok()) return status;
   if (options.plain) {
     out.surface = std::move(out.mesh.surface);
-    out.weights =
-        reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
-                          out.points(), out.surface.order);
   } else {
     out.surface = build_surface_graph(out.points(), out.mesh.triangles);
   }
@@ -61,6 +58,11 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
   for (uint32_t row = 0; row < out.rows(); ++row) {
     out.input[row] = out.input_of[out.surface.order[row]];
     out.row_of[out.input[row]] = row;
+  }
+  if (options.fixed_weights) {
+    out.weights =
+        reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
+                          out.points(), out.surface.order);
   }
   return {};
 }

@@ -141,6 +141,8 @@ void add_components(Maker& m) {
         build_file(mesh, plain_group(4, 12)));
   m.add("fast_all_components", "The same in the fast profile.",
         build_fast(plain_group(4, 12), plain_mesh_of(torus(9, 8))));
+  m.add("fast_on_other_mesh", "The fast profile on a mesh that is not plain.",
+        build_fast(plain_group(8, 24), mesh_of(torus(9, 8))));
   BuiltGroup zero = plain_group(3, 3);
   zero.coefficients = none;
   m.add("zero_planes", "Components without a coefficient: norms of 0.", build_file(mesh, zero));

@@ -28,10 +28,8 @@ void require(const Status& status) {
 BuiltMesh finish_mesh(Bytes bytes) {
   ReferenceMesh mesh;
   require(decode_reference(bytes, {}, mesh));
-  if (mesh.surface.graph.size() == 0) {
-    SurfaceGraph surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
-    return {std::move(bytes), std::move(mesh.grid), std::move(surface), {}};
-  }
+  if (mesh.surface.graph.size() == 0)
+    mesh.surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
   std::vector<float> weights =
       reference_weights(mesh.surface.graph, surface_field_options(Profile::kFast).weights,
                         GridPoints(mesh.grid), mesh.surface.order);
@@ -53,10 +51,10 @@ void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
 Bytes code_lanes(const PredictionGraph& graph, std::span<const float> weights, uint32_t count,
                  const Residuals& residuals) {
   LaneField field(graph, weights, {});
-  RansEncoder coder;
+  RansEncoder coder(std::min(kRansLanes, count));
   LaneField::Planes planes;
-  for (uint32_t k = 0; k < count; k += kRansLanes) {
-    const uint32_t lanes = std::min(kRansLanes, count - k);
+  for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
+    lanes = lanes_of_block(k, count);
     field.begin_block();
     for (uint32_t row = 0; row < field.rows(); ++row) {
       const LaneGuess guess = field.guess(row);

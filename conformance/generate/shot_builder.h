@@ -25,7 +25,7 @@ struct BuiltMesh {
   Bytes bytes;
   std::vector<int32_t> grid;  ///< [coding vertex][xyz]
   SurfaceGraph surface;
-  std::vector<float> weights;  ///< of a plain mesh, for the fast profile; else empty
+  std::vector<float> weights;  ///< for the fast profile
 
   uint32_t rows() const { return surface.graph.size(); }
 };

@@ -8,6 +8,7 @@ from .surface import STEPS, Distances, Row, make_row, set_step_levels
 from .weights import COEFFICIENT_WEIGHTS, RowWeights
 
 LIST = 16
+AROUND = 12
 
 
 class Contraction:
@@ -84,7 +85,7 @@ class Contraction:
                     once.append(w)
                 elif w not in again:
                     again.append(w)
-        return (again + [w for w in once if w not in again])[:LIST - len(self.N[v])]
+        return (again + [w for w in once if w not in again])[:AROUND - len(self.N[v])]
 
 
 class Order:
@@ -118,31 +119,33 @@ class LaneField:
     """Section 3. weights: of every row; steps: of every row, or None where values are whole."""
 
     def __init__(self, data, rows, planes, weights, steps):
-        self.section = LaneSection(data)
+        self.section = LaneSection(data, min(16, planes))
         self.rows = rows
         self.weights = weights
         self.steps = steps
         self.history = [0] * len(rows)
         self.planes = [[0.0] * len(rows) for _ in range(planes)]
-        for block in range((planes + 7) // 8):
-            self.decode_block(block, min(8, planes - 8 * block))
+        for block in range((planes + 8 + 15) // 16 if planes > 0 else 0):
+            first = max(0, 16 * block - 8)
+            self.decode_block(block, first, min(16 * block + 8, planes) - first)
         self.section.check()
 
-    def decode_block(self, block, lanes):
+    def decode_block(self, block, first, lanes):
         self.magnitude = [[0] * lanes for _ in self.rows]
-        self.running = [0] * lanes
+        self.running, self.before = [0] * lanes, [0] * lanes
         for r in range(len(self.rows)):
             for lane in range(lanes):
                 n, _ = self.section.decode(lane, self.classify(block, r, lane))
-                plane = self.planes[8 * block + lane]
+                plane = self.planes[first + lane]
                 plane[r] = self.value(r, plane, n)
                 require(math.isfinite(plane[r]), "a value is beyond binary32")
-                magnitude = min(abs(n), 1023)
+                magnitude = min(abs(n), 255)
                 self.magnitude[r][lane] = magnitude
-                self.running[lane] = self.running[lane] + 32 * magnitude - (self.running[lane] >> 3)
+                self.before[lane] = self.running[lane]
+                self.running[lane] += 32 * magnitude - (self.running[lane] >> 3)
         for r, magnitudes in enumerate(self.magnitude):
-            m = 2 * sum(magnitudes)
-            self.history[r] = m if block == 0 else (self.history[r] + 3 * m) // 4
+            m = sum(magnitudes)
+            self.history[r] = 2 * m if block == 0 else (self.history[r] + 3 * m) // 4
 
     def value(self, r, plane, n):
         s = [0.0] * 4
@@ -156,7 +159,7 @@ class LaneField:
 
     def classify(self, block, r, lane):
         row = self.rows[r]
-        mean = self.running[lane] >> 4
+        mean = self.before[lane] >> 4
         near = mean
         if row.ring > 0:
             total = sum(self.magnitude[k][lane] for k in row.neighbours[:row.ring])
@@ -181,13 +184,13 @@ def decode_positions(data, order):
 
 def decode_plain_order(data, vertex_count):
     """Section 4: the output index of every coding vertex."""
-    section = LaneSection(data)
+    section = LaneSection(data, 1)
     output = []
     met = set()
     before = -1
     which = 0
     for v in range(vertex_count):
-        n, symbol = section.decode(v % 8, which)
+        n, symbol = section.decode(0, which)
         before = before + 1 + n
         require(0 <= before < vertex_count and before not in met, "an index that cannot be")
         met.add(before)

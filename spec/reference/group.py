@@ -48,7 +48,7 @@ class DecodedGroup:
 
     def __init__(self, group, shot, before=None):
         check_group(group)
-        require((group.profile == FAST) == shot.plain, "plain meshes are those of the fast profile")
+        require(group.profile == FAST or not shot.plain, "plain meshes are those of the fast profile")
         self.coefficients = self.basis = None
         if group.profile == LOSSLESS:
             self.frames = LosslessGroup(group, shot.rows, shot.positions, shot.reference)

@@ -5,16 +5,16 @@ from .errors import Corrupt, Truncated, require
 
 CLASSES = 20
 SYMBOLS = 123
-UNIT = 2048
+UNIT = 1024
 
 
 class LaneSection:
-    def __init__(self, data):
+    def __init__(self, data, lanes):
         reader = Reader(data)
         try:
             table_bytes, raw_bytes = reader.u32(), reader.u32()
             tables, self.raw = reader.take(table_bytes), reader.take(raw_bytes)
-            self.state = [reader.u32() for _ in range(8)]
+            self.state = [reader.u32() for _ in range(lanes)]
         except Truncated:
             raise Corrupt("a lane section is too short for its parts")
         self.words = reader.take(reader.remaining())
@@ -46,7 +46,7 @@ class LaneSection:
         while start + frequency[s] <= slot:
             start += frequency[s]
             s += 1
-        x = frequency[s] * (x >> 11) + slot - start
+        x = frequency[s] * (x // UNIT) + slot - start
         if x < 65536:
             x = x * 65536 + self.word()
         self.state[lane] = x

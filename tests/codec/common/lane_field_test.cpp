@@ -41,12 +41,12 @@ Coded encode(const PredictionGraph& graph, const std::vector<float>& weights,
   LaneField field(graph, weights, options);
   const SymbolCosts costs = expected_costs();
   LaneFieldEncoder encoder(field, graph, lambda, 0, costs);
-  for (size_t k = 0; k < targets.size(); k += kRansLanes) {
-    const size_t end = std::min(targets.size(), k + kRansLanes);
-    encoder.code_block({targets.begin() + static_cast<std::ptrdiff_t>(k),
-                        targets.begin() + static_cast<std::ptrdiff_t>(end)});
+  const auto count = static_cast<uint32_t>(targets.size());
+  for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
+    lanes = lanes_of_block(k, count);
+    encoder.code_block({targets.begin() + k, targets.begin() + k + lanes});
   }
-  return {encoder.section(static_cast<uint32_t>(targets.size())).finish(), encoder.planes()};
+  return {encoder.section(count).finish(), encoder.planes()};
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ Coded encode(const PredictionGraph& graph, const std::vector<float>& weights,
 TEST_CASE("a lane field decodes to what its encoder had", "[lane_field]") {
   const SurfaceGraph surface = torus_graph();
   const std::vector<float> weights = prior_weights(surface.graph);
-  for (const uint32_t count : {1u, 7u, 8u, 9u, 20u}) {
+  for (const uint32_t count : {1u, 7u, 8u, 9u, 24u, 25u, 40u}) {
     const LaneField::Planes targets = smooth_planes(surface, count);
     const Coded coded = encode(surface.graph, weights, targets, {}, 0.1);
     LaneField field(surface.graph, weights, {});
@@ -100,14 +100,25 @@ TEST_CASE("classes follow the magnitudes around", "[lane_field]") {
   }
   field.note(0, first, n);
   // Row 1 goes by row 0: its prediction is row 0's value; the expected magnitude in 1/16 is
-  // (10 * 16 m + 6 * (32 m >> 4)) >> 4, m being row 0's magnitude, capped.
+  // (10 * 16 m) >> 4, m being row 0's magnitude, capped. What runs along is a row late.
   const LaneGuess second = field.guess(1);
+  const auto class_of = [](uint32_t expected) {
+    const auto octave = static_cast<uint32_t>(std::floor(std::log2(expected + 1.0)));
+    const uint32_t half = (expected + 1) * 2 >= 3u << octave ? 1 : 0;
+    return std::min(kRansClasses - 1, 2 * octave + half);
+  };
   for (uint32_t l = 0; l < kRansLanes; ++l) {
     CHECK(second.prediction[l] == static_cast<float>(n[l]) * field.step(0));
-    const uint32_t m = static_cast<uint32_t>(std::min(1023, std::abs(n[l])));
-    const uint32_t expected = (10 * 16 * m + 6 * (32 * m >> 4)) >> 4;
-    const auto cls = static_cast<uint32_t>(2 * std::floor(std::log2(expected + 1.0)));
-    CHECK(second.cls[l] - std::min(kRansClasses - 1, cls) <= 1);
+    const uint32_t m = static_cast<uint32_t>(std::min(255, std::abs(n[l])));
+    CHECK(second.cls[l] == class_of(10 * m));
+  }
+  const int32_t zeros[kRansLanes] = {};
+  field.note(1, second, zeros);
+  // Row 2 goes by rows 1 and 0, of which row 1 is its ring.
+  const LaneGuess third = field.guess(2);
+  for (uint32_t l = 0; l < kRansLanes; ++l) {
+    const uint32_t m = static_cast<uint32_t>(std::min(255, std::abs(n[l])));
+    CHECK(third.cls[l] == class_of(6 * (32 * m >> 4) >> 4));
   }
 }
 

@@ -24,7 +24,8 @@ struct Group {
       : shot(animate(torus(40, 24), 24, wave)),
         plan(shot.connectivity),
         encoder(make_group_encoder(make_group_signal(shot, 0, 24), profile, 1)) {
-    const ReferenceOptions options{.plain = profile == Profile::kFast};
+    const bool fast = profile == Profile::kFast;
+    const ReferenceOptions options{.plain = fast, .fixed_weights = fast};
     REQUIRE(make_surface_context(shot, plan, 12, options, surface).ok());
   }
   CodedGroup encode(double q) {
