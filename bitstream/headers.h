@@ -101,6 +101,7 @@ struct GroupHeader {
   static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
   static constexpr uint8_t kQuick = 4;      ///< lossless: the method that decodes quicker
   static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
+  static constexpr uint8_t kLoose = 8;      ///< weights may go far from what distances tell
   uint32_t first_frame = 0;                 ///< in the sequence
   uint32_t frame_count = 1;
   uint32_t shot = 0;
@@ -116,6 +117,8 @@ struct GroupHeader {
   double correction_step = 1;     ///< where corrected: world units
   uint64_t correction_count = 0;  ///< where corrected: coordinates that are
   uint64_t correction_bytes = 0;
+
+  bool loose() const { return (flags & kLoose) != 0; }
   bool operator==(const GroupHeader&) const = default;
 };
 
@@ -140,7 +143,8 @@ void describe(V& v, GroupHeader& h) {
   }
   if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
   v.flags("flags", h.flags,
-          lossless ? GroupHeader::kQuick : GroupHeader::kContinues | GroupHeader::kCorrected);
+          lossless ? GroupHeader::kQuick
+                   : GroupHeader::kContinues | GroupHeader::kCorrected | GroupHeader::kLoose);
   if (!lossless) v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);

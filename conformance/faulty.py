@@ -380,6 +380,10 @@ def add_sections(m):
           flipped(chain.pack(), at[3] + 30))
     m.add("other_profile_continues", "corrupt", "A group continues one of another profile.",
           chain.edited(b"GRUP", 1, profile=b"\1"))
+    m.add("continues_loose", "corrupt", "A group that continues another has loose weights.",
+          chain.edited(b"GRUP", 1, flags=b"\x09"))
+    m.add("thesis_loose", "corrupt", "A group of the thesis profile has loose weights.",
+          File(m.sound("thesis")).edited(b"GRUP", flags=b"\x08"))
     m.add("thesis_continues", "corrupt", "A group of the thesis profile continues one.",
           File(m.sound("thesis")).edited(b"GRUP", flags=b"\1"))
     longest = File(m.sound("longest_run"))

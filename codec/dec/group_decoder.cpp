@@ -39,8 +39,12 @@ Status check_header(const GroupHeader& h) {
   if (h.region_count > MotionModel::kMaxRegions) {
     return Status::corrupt("region_count is out of range");
   }
-  if (h.profile != Profile::kMain && (h.flags & GroupHeader::kContinues) != 0) {
+  const bool continues = (h.flags & GroupHeader::kContinues) != 0;
+  if (h.profile != Profile::kMain && continues) {
     return Status::corrupt("a group continues another in a profile where none does");
+  }
+  if (h.loose() && (h.profile != Profile::kMain || continues)) {
+    return Status::corrupt("a group has loose weights, but does not start to learn any");
   }
   if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
     return Status::corrupt("a section is there that the group does not use");
@@ -65,7 +69,8 @@ Status start_group(const GroupChunk& chunk, const DecodedSurface& surface, unsig
                    GroupState& state) {
   const Profile profile = chunk.header.profile;
   if (!chunk.continues()) {
-    state = start_closed_group(surface.surface, GridPoints(surface.grid), profile, threads);
+    state = start_closed_group(surface.surface, GridPoints(surface.grid), profile,
+                               chunk.header.loose(), threads);
     return {};
   }
   if (state.coefficients != nullptr && state.profile == profile) return {};

@@ -6,10 +6,14 @@ namespace reeb {
 
 namespace {
 
+constexpr double kUsual = 0.0095;  ///< tolerance of a target
+
 constexpr EffortPreset kPresets[kMostEffort] = {
-    {0.0, 0, 4, 0, false}, {0.1, 1, 5, 0, false}, {0.2, 1, 6, 0, false},
-    {0.3, 1, 7, 0, false}, {0.5, 2, 7, 0, false}, {0.5, 3, 7, 0, false},
-    {0.5, 4, 8, 0, false}, {0.5, 4, 8, 2, false}, {0.5, 6, 8, 4, true},
+    {0.0, 0, 4, false, kUsual, false}, {0.0, 0, 5, true, kUsual, false},
+    {0.2, 1, 6, true, kUsual, false},  {0.3, 1, 7, true, kUsual, false},
+    {0.4, 1, 7, true, kUsual, false},  {0.5, 2, 7, true, 0.006, false},
+    {0.5, 2, 8, true, 0.003, false},   {0.5, 2, 8, true, 0.003, true},
+    {0.5, 4, 8, true, 0.0015, true},
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
   Planes planes;
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     LaneField field(graph, surface.weights, {});
-    LaneFieldEncoder encoder(field, graph, thrift_ * kCoefficientLambda, kMassExponent, costs);
+    LaneFieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent, costs);
     StopRule stop(signal_.frames, kCoefficientLambda);
     MotionModel model;
     if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
@@ -60,7 +60,7 @@ GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float
   Planes planes;
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     LaneField field(graph, weights, {});
-    LaneFieldEncoder encoder(field, graph, thrift_ * kBasisLambda, 0, costs);
+    LaneFieldEncoder encoder(field, graph, kBasisLambda, 0, costs);
     const auto count = static_cast<uint32_t>(targets.size());
     for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
       lanes = lanes_of_block(k, count);

@@ -25,6 +25,7 @@ struct CodedGroup {
   float axis_step[3] = {1, 1, 1};  ///< of the motion model and, in the thesis profile, the residual
   uint32_t component_count = 0;
   uint32_t region_count = 0;
+  bool loose = false;  ///< as in the header
   std::vector<uint8_t> motion;
   std::vector<uint8_t> coefficients;
   std::vector<uint8_t> basis;
@@ -63,8 +64,8 @@ class GroupEncoder {
   /// the thesis profile.
   void hold_components(std::optional<uint32_t> count) { held_count_ = count; }
 
-  /// Weight of bits against squared error in decisions, relative to the usual one.
-  void set_thrift(double factor) { thrift_ = factor; }
+  /// Lets weights go further from what distances tell. Without a meaning but in the main profile.
+  void set_loose(bool loose) { loose_ = loose; }
 
   const GroupSignal& signal() const { return signal_; }
 
@@ -73,7 +74,7 @@ class GroupEncoder {
 
   GroupSignal signal_;
   std::optional<uint32_t> held_count_;
-  double thrift_ = 1;
+  bool loose_ = false;
 };
 
 /// Fills the motion section and adds the motion to the planes.

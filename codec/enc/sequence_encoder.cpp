@@ -18,13 +18,12 @@ constexpr double kGuessedPrecision =
 constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
-constexpr double kTolerance = 0.0095;
+constexpr double kMostTolerance = 0.01;
 constexpr double kSlopeStride = 1.2;  ///< ratio of steps between which a slope is taken
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
 constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
 constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corrections
-constexpr double kThriftRatio = 0.75;   ///< between weights of bits that are tried
 // Squared error in q^2 that a bit is worth where settings are compared: most coefficients are 0, so
 // it is more than the ln(2) / 6 of a fine quantizer.
 constexpr double kErrorPerBit = 0.14;
@@ -149,12 +148,12 @@ Status SequenceEncoder::finish_search() {
   // As many components as pay at the step that is likely to be the last; with their number the
   // error would jump by more than the tolerance.
   hold_components(false);
-  if (Status s = search(0, kTolerance, 1); !s.ok()) return s;
+  if (Status s = search(0, effort_.tolerance, 1); !s.ok()) return s;
   hold_components(true);
-  if (Status s = search(0, kTolerance, kTrials); !s.ok()) return s;
-  if (best_.excess <= 0 && best_.excess >= -kTolerance) return {};
+  if (Status s = search(0, effort_.tolerance, kTrials); !s.ok()) return s;
+  if (best_.excess <= 0 && best_.excess >= -kMostTolerance) return {};
   hold_components(false);
-  return search(0, kTolerance, kTrials);
+  return search(0, kMostTolerance, kTrials);
 }
 
 double SequenceEncoder::least_step() const {
@@ -295,18 +294,12 @@ Status SequenceEncoder::choose_regions() {
   return {};
 }
 
-Status SequenceEncoder::choose_thrift() {
-  double chosen = 1;
-  int trials = effort_.thrift_trials;
-  for (const double factor : {kThriftRatio, 1 / kThriftRatio}) {
-    for (bool kept = true; kept && trials > 0; --trials) {
-      for (auto& shot : shots_) shot->set_thrift(chosen * factor);
-      if (Status s = try_setting(kept); !s.ok()) return s;
-      if (kept) chosen *= factor;
-    }
-    if (chosen != 1) break;
-  }
-  for (auto& shot : shots_) shot->set_thrift(chosen);
+Status SequenceEncoder::choose_looseness() {
+  if (options_.profile != Profile::kMain || !effort_.loose_trial) return {};
+  for (auto& shot : shots_) shot->set_loose(true);
+  bool kept = false;
+  if (Status s = try_setting(kept); !s.ok()) return s;
+  for (auto& shot : shots_) shot->set_loose(kept);
   return {};
 }
 
@@ -384,7 +377,7 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   if (Status s = refine_grids(); !s.ok()) return s;
   if (Status s = choose_meshes(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;
-  if (Status s = choose_thrift(); !s.ok()) return s;
+  if (Status s = choose_looseness(); !s.ok()) return s;
   if (Status s = finish_search(); !s.ok()) return s;
   stats = this->stats();
   if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {

@@ -63,7 +63,7 @@ class SequenceEncoder {
   Status refine_grids();
   Status choose_meshes();
   Status choose_regions();
-  Status choose_thrift();
+  Status choose_looseness();
   /// Tries a setting at the step of `best_`; keeps it where its cost is below `share` of what it
   /// was, and returns whether it did.
   Status try_setting(bool& kept, double share = 1);

@@ -166,8 +166,8 @@ RatePoint ShotEncoder::expect(double q) {
   return out;
 }
 
-void ShotEncoder::set_thrift(double factor) {
-  for (Group& group : groups_) group.encoder->set_thrift(factor);
+void ShotEncoder::set_loose(bool loose) {
+  for (Group& group : groups_) group.encoder->set_loose(loose);
 }
 
 void ShotEncoder::hold_components(const std::vector<CodedGroup>& coded) {
@@ -218,6 +218,7 @@ Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& co
     header.quantization_step = static_cast<float>(coded[i].q);
     header.region_count = coded[i].region_count;
     if (continues(static_cast<uint32_t>(i))) header.flags |= GroupHeader::kContinues;
+    if (coded[i].loose) header.flags |= GroupHeader::kLoose;
     GroupSections sections{coded[i].motion, coded[i].coefficients, coded[i].basis, {}};
     if (const auto& c = coded[i].corrections; c.has_value()) {
       header.flags |= GroupHeader::kCorrected;

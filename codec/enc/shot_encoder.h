@@ -46,8 +46,8 @@ class ShotEncoder {
   /// From now on every group sends as many components as in `coded`; empty = as many as pay.
   void hold_components(const std::vector<CodedGroup>& coded);
 
-  /// Weight of bits against squared error in decisions, relative to the usual one.
-  void set_thrift(double factor);
+  /// Lets weights go further from what distances tell.
+  void set_loose(bool loose);
 
   /// Encodes every group with quantization step q.
   std::vector<CodedGroup> encode(double q);

@@ -91,7 +91,8 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
                                                            CodedGroup& out) {
   GroupState& state = run.state;
   if (!run.continues) {
-    state = start_closed_group(surface.surface, surface.points(), profile_, threads_);
+    state = start_closed_group(surface.surface, surface.points(), profile_, loose_, threads_);
+    out.loose = loose_;
   }
   // Components that are coded and then dropped leave no trace in what the next group continues.
   std::unique_ptr<Field> copy;
@@ -107,7 +108,7 @@ GroupEncoder::Planes TransformEncoder::encode_field(const SurfaceContext& surfac
                                                     const MotionFit* motion, Field& field,
                                                     CodedGroup& out) {
   const PredictionGraph& graph = surface.surface.graph;
-  FieldEncoder encoder(field, graph, thrift_ * kCoefficientLambda, kMassExponent);
+  FieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent);
   StopRule stop(signal_.frames, kCoefficientLambda);
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
@@ -158,7 +159,7 @@ GroupEncoder::Planes TransformEncoder::code_basis(const std::vector<std::vector<
                                                   MagnitudeModel& contexts, CodedGroup& out) {
   Field field(temporal_.graph, basis_field_options(), threads_);
   std::swap(field.model(), contexts);
-  FieldEncoder encoder(field, temporal_.graph, thrift_ * kBasisLambda, 0);
+  FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
   for (const std::vector<float>& target : targets) encoder.code_component(target.data());
   out.basis = encoder.recorder().encode(encoder.recorder().size());
   std::swap(field.model(), contexts);

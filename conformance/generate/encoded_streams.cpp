@@ -41,6 +41,14 @@ EncodeOptions open_at(uint32_t group_length, uint32_t open_groups) {
   return o;
 }
 
+/// At an effort that tries loose weights, and with an error that makes them pay.
+EncodeOptions loose() {
+  EncodeOptions o = open_at(10, 1);
+  o.target_value = 0.01;
+  o.effort = 6;
+  return o;
+}
+
 /// Every vertex goes its own way: as many components as there can be.
 void scatter(const float* rest, double time, double* xyz) {
   for (int a = 0; a < 3; ++a) {
@@ -170,6 +178,8 @@ void add_groups(Maker& m) {
         with(at(0.2), Profile::kMain, 0, 1));
   m.add("open_groups", "Every group but the first continues the one before.", torus(10, 8), 14,
         open_at(4, 63));
+  m.add("loose_groups", "A group with loose weights, and one that continues it.", torus(24, 14), 20,
+        loose(), fold);
   m.add("open_runs", "Runs of a group and one that continues it, with regions.", torus(14, 9), 12,
         with(open_at(3, 1), Profile::kMain, 3, 3), fold);
   m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,

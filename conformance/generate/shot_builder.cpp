@@ -76,7 +76,8 @@ Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
     return code_lanes(mesh.surface.graph, mesh.weights, group.header.component_count,
                       group.coefficients);
   }
-  Field field(mesh.surface.graph, surface_field_options(group.header.profile), 1);
+  Field field(mesh.surface.graph, surface_field_options(group.header.profile, group.header.loose()),
+              1);
   field.learn_reference(GridPoints(mesh.grid), mesh.surface.order);
   BinaryEncoder coder;
   code_components(field, coder, group.header.component_count, group.coefficients);

@@ -7,7 +7,7 @@ from .container import MAIN, THESIS
 from .entropy import EVEN, Mixer, RangeDecoder, ShortBit, adaptive_bits
 from .errors import require
 from .surface import STEPS
-from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, RowWeights, WeightOptions, due
+from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, LOOSE_WEIGHTS, RowWeights, WeightOptions, due
 
 
 @dataclass
@@ -23,6 +23,7 @@ COEFFICIENTS = {
     MAIN: FieldOptions(COEFFICIENT_WEIGHTS, True, True, 2.2, 0.2),
     THESIS: FieldOptions(COEFFICIENT_WEIGHTS, False, False),
 }
+LOOSE_COEFFICIENTS = FieldOptions(LOOSE_WEIGHTS, True, True, 2.2, 0.2)
 BASIS = FieldOptions(BASIS_WEIGHTS, True, True, 0.5, 0.05)
 
 TABLE_CONTEXTS = (144, 24, 96, 144)

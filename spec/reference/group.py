@@ -1,10 +1,10 @@
 """README.md section 3: decoding of shots, groups and frames."""
 from . import fast
 from .arithmetic import sum32
-from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS
+from .container import CONTINUES, FAST, LOOSE, LOSSLESS, MAIN, THESIS
 from .corrections import Corrections
 from .errors import Corrupt, require
-from .fields import BASIS, COEFFICIENTS, decode_field
+from .fields import BASIS, COEFFICIENTS, LOOSE_COEFFICIENTS, decode_field
 from .lossless import LosslessGroup
 from .mesh import decode_mesh
 from .motion import Motion
@@ -39,6 +39,8 @@ def check_group(group):
         fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
+    may_be_loose = group.profile == MAIN and not group.flags & CONTINUES
+    require(may_be_loose or group.profile == LOSSLESS or not group.flags & LOOSE, "loose weights where none start")
     unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
 
@@ -77,8 +79,9 @@ class DecodedGroup:
     def decode_coefficients(self, group, shot, before):
         if group.profile == FAST:
             return fast.decode_coefficients(group.coefficients, shot.rows, group.component_count, shot.positions)
+        options = LOOSE_COEFFICIENTS if group.flags & LOOSE else COEFFICIENTS[group.profile]
         self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
-                                         COEFFICIENTS[group.profile], shot.positions, before and before.coefficients)
+                                         options, shot.positions, before and before.coefficients)
         return self.coefficients.planes
 
     def decode_basis(self, group, rows, before):
