@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace reeb {
@@ -29,6 +30,15 @@ struct AligningAllocator {
         static_cast<char*>(block) + kAlignment - reinterpret_cast<uintptr_t>(block) % kAlignment;
     reinterpret_cast<void**>(begin)[-1] = block;
     return reinterpret_cast<T*>(begin);
+  }
+  /// Elements that no value is given for stay as memory comes.
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
   }
   void deallocate(T* begin, size_t) { ::operator delete(reinterpret_cast<void**>(begin)[-1]); }
 

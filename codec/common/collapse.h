@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/common/fixed_list.h"
 #include "codec/common/grid.h"
 
 namespace reeb {
@@ -13,9 +14,9 @@ namespace reeb {
 /// collapses are undone in reverse, that is when the vertex is decoded.
 struct Collapse {
   uint32_t vertex = 0;
-  std::vector<uint32_t> ring;  ///< its neighbours, by index
-  std::vector<uint32_t>
-      extra;  ///< nearest vertices of the 2-ring, then of the 3-ring, each by distance
+  FixedList<uint32_t, 16> ring;   ///< its neighbours, by index
+  FixedList<uint32_t, 16> extra;  ///< nearest vertices of the 2-ring, then of the 3-ring, each by
+                                  ///< distance
 };
 
 struct CollapseSequence {
@@ -24,8 +25,9 @@ struct CollapseSequence {
   std::vector<uint32_t> isolated;   ///< vertices without a triangle, by index
 };
 
-/// `triangles` holds 3 vertex indices each, non-degenerate; any topology. `max_extra` bounds
-/// `extra`. Integer keys only, ties by index: the same on every machine. Time O(V log V).
+/// `triangles` holds 3 vertex indices each, non-degenerate; any topology. `max_extra` (at most
+/// 16) bounds `extra`. Integer keys only, ties by index: the same on every machine. Time O(V log
+/// V).
 CollapseSequence collapse_mesh(const GridPoints& points, std::span<const uint32_t> triangles,
                                uint32_t max_extra);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,7 @@ class ErrorModel {
   void observe(int64_t error, uint32_t share, uint32_t memory);
 
  private:
+  static constexpr uint32_t kInnerBuckets = 8;  // of one step each
   static constexpr uint32_t kBlock = 16;
   static constexpr uint32_t kBlocks = 9;
   struct Side {
@@ -37,12 +39,37 @@ class ErrorModel {
     void add(uint32_t bucket, uint32_t share);
     void sum_up();
   };
+  struct Bucket {
+    uint32_t index;
+    uint64_t start;
+    uint32_t width_log2;
+  };
+  /// Bucket of an error without its sign, < 2^41.
+  static Bucket bucket_of(uint64_t error) {
+    if (error < 16 * kInnerBuckets)
+      return {static_cast<uint32_t>(error >> 4), error & ~uint64_t{15}, 4};
+    const uint32_t width_log2 = static_cast<uint32_t>(std::bit_width(error)) - 3;
+    const uint64_t quarter = error >> width_log2;  // 4 .. 7
+    return {kInnerBuckets + (width_log2 - 5) * 4 + static_cast<uint32_t>(quarter - 4),
+            quarter << width_log2, width_log2};
+  }
   void halve();
 
   Side sides_[2];  // errors >= 0, errors < 0
   uint32_t seen_;
   uint64_t scale_ = 0;
 };
+
+inline int64_t ErrorModel::weight_to(int64_t error) const {
+  const bool negative = error < 0;
+  const auto size = static_cast<uint64_t>(negative ? -error : error);
+  const Bucket b = bucket_of(size);
+  const Side& side = sides_[negative];
+  const uint64_t part = ((size - b.start) * (uint64_t{side.weight[b.index]} << 8)) >> b.width_log2;
+  const uint64_t inner = side.blocks[b.index / kBlock] + side.inner[b.index];
+  const auto weight = static_cast<int64_t>(((inner << 8) + part) * scale_);
+  return negative ? -weight : weight;
+}
 
 /// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
 class GuessMixture {
@@ -62,6 +89,7 @@ class GuessMixture {
   /// 0) beyond until the value is passed, then in halves.
   template <class Coder>
   uint32_t code(Coder& coder, uint32_t value, uint32_t count, uint32_t likely, uint64_t reach) {
+    for (auto* weights : {&low_, &high_, &split_}) weights->resize(guesses_.size());
     Range r = {0, count, weigh(0, low_), weigh(count, high_)};
     const bool up = likely == 0 || narrow(coder, value, likely, r);
     bool passed = false;
@@ -104,7 +132,14 @@ class GuessMixture {
   static Probability probability(int64_t part, int64_t whole);
   /// Weight of all values below `value`, up to a constant, by guess and in all; rises by at least
   /// kFloor per value.
-  int64_t weigh(uint32_t value, std::vector<int64_t>& by_guess) const;
+  int64_t weigh(uint32_t value, std::vector<int64_t>& by_guess) const {
+    int64_t sum = kFloor * value;
+    for (size_t i = 0; i < guesses_.size(); ++i) {
+      by_guess[i] = models_[guesses_[i].kind].weight_to(guesses_[i].error(value));
+      sum += by_guess[i];
+    }
+    return sum;
+  }
   /// Learns `value`; low_ and high_ are the weights below it and below the next.
   void observe(uint32_t value, uint64_t all);
 

@@ -3,6 +3,7 @@
 // vector width gives the same bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "codec/common/prediction_graph.h"
@@ -36,10 +37,11 @@ using ObservePointsKernel = void (*)(WeightBatch&, const Lanes (*y)[3], const La
 /// columns, rows 0 and on of columns 0 .. 7, then rows 8 and on of columns 8 .. 15.
 struct alignas(64) RowEquations {
   Lanes strip[kMaxNeighbours + kMaxNeighbours / 2];
-  double target[kMaxNeighbours];
 };
+/// Their right sides, which are 0 where weights sum to one.
+using RowTarget = std::array<double, kMaxNeighbours>;
 
-/// From and to the equations of the rows of a batch; targets are only loaded.
+/// From and to the equations of the rows of a batch, without targets.
 using LoadEquationsKernel = void (*)(WeightBatch&, const RowEquations* const rows[kLanes]);
 using StoreEquationsKernel = void (*)(const WeightBatch&, RowEquations* const rows[kLanes]);
 
@@ -54,11 +56,10 @@ struct FoldTask {
   uint32_t count;  ///< neighbours
   uint32_t row;
   uint32_t begin, end;  ///< the observations to learn from
-  bool sum_to_one;
 };
 
-/// Adds the observations, one after another.
-using FoldKernel = void (*)(RowEquations&, const FoldTask&);
+/// Adds the observations, one after another. `target`: null where weights sum to one.
+using FoldKernel = void (*)(RowEquations&, double* target, const FoldTask&);
 
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);

@@ -8,6 +8,7 @@ namespace reeb {
 
 namespace {
 constexpr uint32_t kLeafSize = 8;
+constexpr uint32_t kFew = 128;                    ///< earlier vertices that are all tried
 using Candidate = std::pair<uint64_t, uint32_t>;  // squared distance, vertex
 }  // namespace
 
@@ -23,10 +24,10 @@ struct EarlierNeighbours::Query {
   }
 };
 
-EarlierNeighbours::EarlierNeighbours(const GridPoints& points, const std::vector<uint32_t>& rank)
-    : points_(points), rank_(rank), items_(points.size()) {
+void EarlierNeighbours::build() {
+  items_.resize(points_.size());
   std::iota(items_.begin(), items_.end(), 0u);
-  if (!items_.empty()) build(0, points.size());
+  build(0, points_.size());
 }
 
 uint32_t EarlierNeighbours::build(uint32_t begin, uint32_t end) {
@@ -61,15 +62,17 @@ uint32_t EarlierNeighbours::build(uint32_t begin, uint32_t end) {
   return id;
 }
 
+void EarlierNeighbours::try_vertex(uint32_t u, Query& query) const {
+  const Candidate c{points_.distance2(query.vertex, u), u};
+  if (query.improves(c)) query.add(c);
+}
+
 void EarlierNeighbours::visit(uint32_t id, Query& query) const {
   const Node& node = nodes_[id];
   if (node.min_rank >= rank_[query.vertex]) return;
   if (node.left == 0) {
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const uint32_t u = items_[i];
-      if (rank_[u] >= rank_[query.vertex]) continue;
-      const Candidate c{points_.distance2(query.vertex, u), u};
-      if (query.improves(c)) query.add(c);
+      if (rank_[items_[i]] < rank_[query.vertex]) try_vertex(items_[i], query);
     }
     return;
   }
@@ -81,9 +84,14 @@ void EarlierNeighbours::visit(uint32_t id, Query& query) const {
   }
 }
 
-std::vector<uint32_t> EarlierNeighbours::find(uint32_t v, uint32_t k) const {
+std::vector<uint32_t> EarlierNeighbours::find(uint32_t v, uint32_t k) {
   Query query{v, k, {}};
-  visit(0, query);
+  if (rank_[v] <= kFew) {
+    for (uint32_t r = 0; r < rank_[v]; ++r) try_vertex(order_[r], query);
+  } else {
+    if (nodes_.empty()) build();
+    visit(0, query);
+  }
   std::vector<uint32_t> out;
   for (const Candidate& c : query.best) out.push_back(c.second);
   return out;

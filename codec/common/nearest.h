@@ -8,15 +8,19 @@
 
 namespace reeb {
 
-/// k-d tree over the vertices of the reference mesh; every node knows the lowest rank (position in
-/// the coding order) below it, so that a query skips what is not decoded yet.
+/// Tries all vertices where they are few; else by a k-d tree over the vertices of the reference
+/// mesh, made when first needed. Every node knows the lowest rank (position in the coding order)
+/// below it, so that a query skips what is not decoded yet.
 class EarlierNeighbours {
  public:
-  /// `rank[v]`: place of vertex v in the coding order. Both must outlive the object.
-  EarlierNeighbours(const GridPoints& points, const std::vector<uint32_t>& rank);
+  /// `order`: the vertices in coding order; `rank[v]`: place of vertex v there. All must outlive
+  /// the object.
+  EarlierNeighbours(const GridPoints& points, const std::vector<uint32_t>& order,
+                    const std::vector<uint32_t>& rank)
+      : points_(points), order_(order), rank_(rank) {}
 
   /// Up to `k` vertices of lower rank nearest to v, nearest first, ties by index.
-  std::vector<uint32_t> find(uint32_t v, uint32_t k) const;
+  std::vector<uint32_t> find(uint32_t v, uint32_t k);
 
  private:
   struct Node {
@@ -28,13 +32,16 @@ class EarlierNeighbours {
   };
   struct Query;
 
+  void build();
   uint32_t build(uint32_t begin, uint32_t end);
+  void try_vertex(uint32_t u, Query& query) const;
   void visit(uint32_t node, Query& query) const;
 
   const GridPoints& points_;
+  const std::vector<uint32_t>& order_;
   const std::vector<uint32_t>& rank_;
   std::vector<uint32_t> items_;
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;  ///< empty before the tree is needed
 };
 
 }  // namespace reeb

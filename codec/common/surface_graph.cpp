@@ -46,8 +46,8 @@ void append_by_strides(const GridPoints& points, std::vector<uint32_t> vertices,
 
 /// Neighbours of one vertex as they are gathered, ring first.
 struct Gathered {
-  std::vector<uint32_t> ring;
-  std::vector<uint32_t> extra;
+  FixedList<uint32_t, 16> ring;
+  FixedList<uint32_t, 16> extra;
 
   size_t size() const { return ring.size() + extra.size(); }
   bool has(uint32_t v) const {
@@ -64,9 +64,9 @@ class SurfaceGraphBuilder {
     append_by_strides(points, sequence.base, order_);
     gathered_.resize(points.size());
     for (size_t i = sequence.collapses.size(); i-- > 0;) {
-      Collapse& c = sequence.collapses[i];
+      const Collapse& c = sequence.collapses[i];
       order_.push_back(c.vertex);
-      gathered_[c.vertex] = {std::move(c.ring), std::move(c.extra)};
+      gathered_[c.vertex] = {c.ring, c.extra};
     }
     append_by_strides(points, sequence.isolated, order_);
     rank_.resize(points.size());
@@ -75,7 +75,7 @@ class SurfaceGraphBuilder {
   }
 
   SurfaceGraph build() {
-    const EarlierNeighbours nearest(points_, rank_);
+    EarlierNeighbours nearest(points_, order_, rank_);
     SurfaceGraph out;
     out.graph.rows.resize(points_.size());
     for (uint32_t r = 0; r < order_.size(); ++r) {
@@ -91,22 +91,30 @@ class SurfaceGraphBuilder {
   /// Vertices on an edge of one triangle: others may lie at the same place,
   /// moving alike.
   void mark_boundary(std::span<const uint32_t> triangles) {
-    std::vector<uint64_t> edges;
-    edges.reserve(triangles.size());
+    const auto ends = [&](size_t i) {
+      return std::minmax(triangles[i], triangles[i % 3 == 2 ? i - 2 : i + 1]);
+    };
+    std::vector<uint32_t> begin(points_.size() + 1, 0);  // of the edges by their lower end
+    for (size_t i = 0; i < triangles.size(); ++i) ++begin[ends(i).first + 1];
+    for (size_t v = 0; v < points_.size(); ++v) begin[v + 1] += begin[v];
+    std::vector<uint32_t> higher(triangles.size());
+    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
     for (size_t i = 0; i < triangles.size(); ++i) {
-      const uint32_t a = triangles[i];
-      const uint32_t b = triangles[i % 3 == 2 ? i - 2 : i + 1];
-      edges.push_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+      const auto [low, high] = ends(i);
+      higher[next[low]++] = high;
     }
-    std::sort(edges.begin(), edges.end());
-    for (size_t i = 0; i < edges.size(); ++i) {
-      const bool single = (i == 0 || edges[i] != edges[i - 1]) &&
-                          (i + 1 == edges.size() || edges[i] != edges[i + 1]);
-      if (single) boundary_[edges[i] >> 32] = boundary_[static_cast<uint32_t>(edges[i])] = true;
+    for (size_t v = 0; v < points_.size(); ++v) {
+      const std::span<uint32_t> edges(higher.data() + begin[v], begin[v + 1] - begin[v]);
+      std::sort(edges.begin(), edges.end());
+      for (size_t i = 0; i < edges.size(); ++i) {
+        const bool single = (i == 0 || edges[i] != edges[i - 1]) &&
+                            (i + 1 == edges.size() || edges[i] != edges[i + 1]);
+        if (single) boundary_[v] = boundary_[edges[i]] = true;
+      }
     }
   }
 
-  void complete(uint32_t v, const EarlierNeighbours& nearest) {
+  void complete(uint32_t v, EarlierNeighbours& nearest) {
     Gathered& g = gathered_[v];
     const bool loose = g.ring.empty();
     if (!loose && !boundary_[v] && g.size() >= kEnough) return;
@@ -116,7 +124,7 @@ class SurfaceGraphBuilder {
       if (loose && g.ring.size() < kLooseRing) {
         g.ring.push_back(u);
       } else if (points_.distance2(v, u) == 0 && coincident < kCoincident) {
-        g.ring.insert(g.ring.begin(), u);
+        g.ring.push_front(u);
         ++coincident;
       } else if (g.size() < kMaxNeighbours) {
         g.extra.push_back(u);

@@ -75,9 +75,6 @@ void load_equations(WeightBatch& batch, const RowEquations* const rows[kLanes]) 
     transpose(in, out);
     for (uint32_t k = j; k <= i && k < j + 8; ++k) batch.matrix[packed(i, k)] = out[k - j];
   });
-  for (uint32_t i = 0; i < batch.count; ++i) {
-    for (uint32_t l = 0; l < kLanes; ++l) batch.target[i][l] = rows[l]->target[i];
-  }
 }
 
 void store_equations(const WeightBatch& batch, RowEquations* const rows[kLanes]) {
@@ -96,11 +93,11 @@ struct Said {
   double self[kObservations];
 };
 
-inline void collect(const FoldTask& task, Said& said) {
+inline void collect(const FoldTask& task, bool to_one, Said& said) {
   for (uint32_t o = task.begin / 8 * 8; o < task.end; o += 8) {
     const Floats8 self = load8(task.values + size_t{task.row} * kObservations + o);
     for (uint32_t k = 0; k < 8; ++k) said.self[o + k] = static_cast<double>(self[k]);
-    const Floats8 padding = task.sum_to_one ? self : Floats8{};
+    const Floats8 padding = to_one ? self : Floats8{};
     for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
       Floats8 in[8];
       Floats8 out[8];
@@ -112,7 +109,7 @@ inline void collect(const FoldTask& task, Said& said) {
       transpose(in, out);
       for (uint32_t k = 0; k < 8; ++k) {
         const Lanes value = __builtin_convertvector(out[k], Lanes);
-        const Lanes y = (task.sum_to_one ? value - said.self[o + k] : value) * task.scale[o + k];
+        const Lanes y = (to_one ? value - said.self[o + k] : value) * task.scale[o + k];
         std::memcpy(&said.y[o + k][i], &y, sizeof y);
       }
     }
@@ -133,15 +130,15 @@ inline void add_outer(Lanes* strip, const FoldTask& task, const Said& said, uint
   for (uint32_t k = 0; k < kRows; ++k) strip[k] = sum[k];
 }
 
-void fold(RowEquations& row, const FoldTask& task) {
+void fold(RowEquations& row, double* target, const FoldTask& task) {
   Said said;
-  collect(task, said);
+  collect(task, target == nullptr, said);
   for (uint32_t i = 0; i < task.count; i += kRows) add_outer(&row.strip[i], task, said, i, 0);
   for (uint32_t i = 8; i < task.count; i += kRows) add_outer(&row.strip[i + 8], task, said, i, 8);
-  if (task.sum_to_one) return;
+  if (target == nullptr) return;
   for (uint32_t o = task.begin; o < task.end; ++o) {
     for (uint32_t i = 0; i < kMaxNeighbours; ++i)
-      row.target[i] += said.y[o][i] * (said.self[o] * task.scale[o]);
+      target[i] += said.y[o][i] * (said.self[o] * task.scale[o]);
   }
 }
 

@@ -90,7 +90,7 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
     : graph_(graph),
       options_(options),
       threads_(threads),
-      equations_(graph.size()),
+      targets_(options.sum_to_one ? 0 : graph.size()),
       values_(size_t{graph.size()} * kObservations),
       folded_(graph.size(), 0),
       stale_(graph.size(), 1),
@@ -98,16 +98,26 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
 
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
+  equations_.resize(graph_.size());
   const auto keep = [&](const WeightBatch& batch, const uint32_t rows[kLanes]) {
     RowEquations* equations[kLanes];
-    for (uint32_t l = 0; l < kLanes; ++l) equations[l] = &equations_[rows[l]];
+    for (uint32_t l = 0; l < kLanes; ++l) {
+      equations[l] = &equations_[rows[l]];
+      *equations[l] = {};
+    }
     kernels_.store_equations(batch, equations);
   };
   solve_reference(graph_, options_, points, order, kernels_, weights_, keep);
   std::fill(stale_.begin(), stale_.end(), uint8_t{0});
 }
 
+// Not before: a field that learns nothing needs none, and what the reference gives is written once.
+void WeightEstimator::make_equations() {
+  if (equations_.empty()) equations_.resize(graph_.size(), RowEquations{});
+}
+
 void WeightEstimator::observe(double noise) {
+  make_equations();
   scale_[observations_++] = 1.0 / std::sqrt(noise);
   if (observations_ < kObservations) return;
   parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {
@@ -123,8 +133,9 @@ void WeightEstimator::observe(double noise) {
 void WeightEstimator::fold(uint32_t r) {
   const PredictionGraph::Row& row = graph_.rows[r];
   if (folded_[r] == observations_) return;
-  kernels_.fold(equations_[r], {values_.data(), scale_, row.neighbour.data(), row.count, r,
-                                folded_[r], observations_, options_.sum_to_one});
+  kernels_.fold(
+      equations_[r], options_.sum_to_one ? nullptr : targets_[r].data(),
+      {values_.data(), scale_, row.neighbour.data(), row.count, r, folded_[r], observations_});
   folded_[r] = static_cast<uint8_t>(observations_);
 }
 
@@ -132,12 +143,14 @@ void WeightEstimator::fade(double factor) {
   for (uint32_t r = 0; r < graph_.size(); ++r) {
     fold(r);
     for (Lanes& entries : equations_[r].strip) entries *= factor;
-    for (double& entry : equations_[r].target) entry *= factor;
+    if (options_.sum_to_one) continue;
+    for (double& entry : targets_[r]) entry *= factor;
   }
   std::fill(stale_.begin(), stale_.end(), uint8_t{1});
 }
 
 void WeightEstimator::solve() {
+  make_equations();
   std::vector<uint32_t> rows;
   for (uint32_t r = 0; r < graph_.size(); ++r) {
     if (stale_[r] != 0) rows.push_back(r);
@@ -166,6 +179,10 @@ void WeightEstimator::solve(const uint32_t* rows, uint32_t count) {
   WeightBatch batch;
   init_batch(batch, row, graph_, options_);
   kernels_.load_equations(batch, equations);
+  for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
+    for (uint32_t l = 0; l < kLanes; ++l)
+      batch.target[i][l] = options_.sum_to_one ? 0 : targets_[row[l]][i];
+  }
   kernels_.solve(batch, options_.sum_to_one, out);
 }
 

@@ -58,6 +58,7 @@ class WeightEstimator {
   const float* weights(uint32_t row) const { return &weights_[size_t{row} * kMaxNeighbours]; }
 
  private:
+  void make_equations();
   void fold(uint32_t row);
   void solve(const uint32_t* rows, uint32_t count);
 
@@ -65,11 +66,12 @@ class WeightEstimator {
   WeightOptions options_;
   unsigned threads_;
   Kernels kernels_ = fastest_kernels();
-  BatchVector<RowEquations> equations_;
-  std::vector<float> values_;         ///< [row][observation]: the last ones
-  double scale_[kObservations] = {};  ///< 1 / sqrt(noise) of each
-  uint32_t observations_ = 0;         ///< that are in `values_`
-  std::vector<uint8_t> folded_;       ///< of these, those in the row's equations
+  BatchVector<RowEquations> equations_;  ///< none before something is learned
+  std::vector<RowTarget> targets_;       ///< none where weights sum to one
+  std::vector<float> values_;            ///< [row][observation]: the last ones
+  double scale_[kObservations] = {};     ///< 1 / sqrt(noise) of each
+  uint32_t observations_ = 0;            ///< that are in `values_`
+  std::vector<uint8_t> folded_;          ///< of these, those in the row's equations
   std::vector<uint8_t> stale_;
   std::vector<float> weights_;
 };

@@ -26,7 +26,9 @@ void check(const std::vector<int32_t>& xyz, std::mt19937& random) {
   std::vector<uint32_t> rank(points.size());
   std::iota(rank.begin(), rank.end(), 0u);
   std::shuffle(rank.begin(), rank.end(), random);
-  const EarlierNeighbours nearest(points, rank);
+  std::vector<uint32_t> order(rank.size());
+  for (uint32_t v = 0; v < rank.size(); ++v) order[rank[v]] = v;
+  EarlierNeighbours nearest(points, order, rank);
   for (uint32_t v = 0; v < points.size(); ++v) {
     for (const uint32_t k : {1u, 5u, 16u})
       REQUIRE(nearest.find(v, k) == brute_force(points, rank, v, k));

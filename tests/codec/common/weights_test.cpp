@@ -127,8 +127,11 @@ std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool su
       batch->precision[i][lane] = 0.7 + 0.1 * i;
       batch->in_use[i][lane] = i < row.count ? 1 : 0;
     }
-    kernels.fold(equations[lane], {values.data(), scale.data(), row.neighbour.data(), row.count, r,
-                                   1, observations, sum_to_one});
+    RowTarget target{};
+    kernels.fold(
+        equations[lane], sum_to_one ? nullptr : target.data(),
+        {values.data(), scale.data(), row.neighbour.data(), row.count, r, 1, observations});
+    for (uint32_t i = 0; i < kMaxNeighbours; ++i) batch->target[i][lane] = target[i];
     rows[lane] = &equations[lane];
     lanes[lane] = &out[lane * kMaxNeighbours];
   }
