@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "codec/common/largest_magnitude.h"
+
 namespace reeb {
 
 namespace {
@@ -23,9 +25,7 @@ int32_t round_to_integer(float x) {
 
 /// Largest magnitude among the rounded values, or more than kMost16.
 int64_t largest_integer(const std::vector<float>& plane) {
-  uint32_t bits = 0;  // magnitudes of binary32 are in the order of their bits
-  for (const float x : plane) bits = std::max(bits, std::bit_cast<uint32_t>(x) & 0x7FFFFFFFu);
-  const float largest = std::bit_cast<float>(bits) * kPlaneUnits;
+  const float largest = largest_magnitude(plane) * kPlaneUnits;
   return largest < static_cast<float>(kMost16 + 1) ? round_to_integer(largest) : kMost16 + 1;
 }
 

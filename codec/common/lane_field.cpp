@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/common/largest_magnitude.h"
+
 namespace reeb {
 
 LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weights,
@@ -46,9 +48,10 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
     history_[r] = block_.history == nullptr ? 2 * sum : (history_[r] + 3 * sum) / 4;
   }
   block_.history = history_.data();
-  for (uint32_t l = 0; l < lanes; ++l) {
-    std::vector<float>& plane = planes.emplace_back(rows());
-    for (uint32_t r = 0; r < rows(); ++r) plane[r] = values_[size_t{r} * kRansLanes + l];
+  std::array<float*, kRansLanes> plane;
+  for (uint32_t l = 0; l < lanes; ++l) plane[l] = planes.emplace_back(rows()).data();
+  for (uint32_t r = 0; r < rows(); ++r) {
+    for (uint32_t l = 0; l < lanes; ++l) plane[l][r] = values_[size_t{r} * kRansLanes + l];
   }
 }
 
@@ -63,9 +66,7 @@ bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, La
     field.end_block(lanes, planes);
     if (decoder.overrun() || stop.requested()) return false;
     for (uint32_t l = 0; l < lanes; ++l) {
-      const std::vector<float>& plane = planes[k + l];
-      if (!std::all_of(plane.begin(), plane.end(), [](float x) { return std::isfinite(x); }))
-        return false;
+      if (!std::isfinite(largest_magnitude(planes[k + l]))) return false;
     }
   }
   return true;
