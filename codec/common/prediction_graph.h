@@ -40,13 +40,6 @@ struct PredictionGraph {
 inline constexpr uint32_t kStepLevels = 192;
 extern const std::array<uint32_t, kStepLevels> kStepTable;
 
-/// Rows joined by a ring in either direction; row r has links[begin[r] .. begin[r+1]).
-struct RowLinks {
-  std::vector<uint32_t> begin;
-  std::vector<uint32_t> links;
-};
-RowLinks link_rings(const PredictionGraph& graph);
-
 /// Rows that each row is a neighbour of: of row r, to[begin[r] .. begin[r+1]), each times 2, plus 1
 /// where r is in its ring.
 struct RowUses {

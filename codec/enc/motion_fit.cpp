@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "codec/enc/row_links.h"
+
 namespace reeb {
 
 namespace {

@@ -83,25 +83,6 @@ TEST_CASE("priors are weights of a mean over the ring", "[surface_graph]") {
   }
 }
 
-TEST_CASE("links are the rings in both directions", "[surface_graph]") {
-  for (const Built& b : all_built()) {
-    INFO(b.name);
-    const PredictionGraph& g = b.surface.graph;
-    const RowLinks links = link_rings(g);
-    std::multiset<std::pair<uint32_t, uint32_t>> expected, found;
-    for (uint32_t r = 0; r < g.size(); ++r) {
-      for (uint32_t i = 0; i < g.rows[r].ring; ++i) {
-        expected.emplace(r, g.rows[r].neighbour[i]);
-        expected.emplace(g.rows[r].neighbour[i], r);
-      }
-      REQUIRE(links.begin[r] <= links.begin[r + 1]);
-      for (uint32_t i = links.begin[r]; i < links.begin[r + 1]; ++i)
-        found.emplace(r, links.links[i]);
-    }
-    CHECK(found == expected);
-  }
-}
-
 TEST_CASE("uses are the neighbours seen from the other side", "[surface_graph]") {
   for (const Built& b : all_built()) {
     INFO(b.name);
