@@ -68,10 +68,19 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
       magnitude_(graph.size(), 0),
       last_(graph.size(), 0),
       history_(graph.size(), 0),
-      near_(graph.size()) {}
+      near_(graph.size()),
+      learned_components_(options.adaptive ? UINT32_MAX : 0) {}
 
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
   estimator_.observe_reference(points, order);
+}
+
+void Field::expect(uint32_t components) {
+  if (!options_.adaptive) return;
+  for (learned_components_ = components; learned_components_ > 0; --learned_components_) {
+    const uint32_t k = learned_components_ - 1;
+    if (k + 1 < components && resolve_after(k)) break;
+  }
 }
 
 std::vector<std::vector<float>> Field::next_group() {
@@ -94,16 +103,16 @@ void Field::note(uint32_t row, int64_t residual) {
   for (uint32_t i = plan_->uses.begin[row]; i < end; ++i) near_[to[i] / 2][to[i] % 2] += magnitude;
 }
 
-void Field::finish_component(double energy) {
+void Field::finish_component(double energy, bool learns) {
   const auto rows = static_cast<uint32_t>(magnitude_.size());
   for (uint32_t r = 0; r < rows; ++r) history_[r] = (history_[r] * 154 + magnitude_[r] * 102) >> 8;
   std::swap(last_, magnitude_);
   std::fill(magnitude_.begin(), magnitude_.end(), 0);
   std::fill(near_.begin(), near_.end(), std::array<uint32_t, 2>{});
   recent_ = 0;
-  if (!options_.adaptive) return;
+  if (!learns) return;
   const uint32_t fine_rows = rows - rows / 4;
-  estimator_.observe(options_.noise_share * (energy / fine_rows) + options_.noise_floor);
+  estimator_.finish_component(options_.noise_share * (energy / fine_rows) + options_.noise_floor);
   if (resolve_after(component_count() - 1)) estimator_.solve();
 }
 

@@ -36,6 +36,10 @@ class Field {
   /// Weights from the reference positions; call before the first component, surface graphs only.
   void learn_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
+  /// Promises that there are no more than `components` before the field is used up: what would be
+  /// learned for later ones is not. The values do not depend on it.
+  void expect(uint32_t components);
+
   /// Codes the next component. `residual(row, prediction, step, bins)` gives the quantized residual
   /// n; the value becomes prediction + n * step / 65536.
   template <class Residual>
@@ -69,7 +73,7 @@ class Field {
   float predict(uint32_t row, const float* plane) const;
   Surroundings surroundings(uint32_t row) const;
   void note(uint32_t row, int64_t residual);
-  void finish_component(double energy);
+  void finish_component(double energy, bool learns);
 
   static constexpr uint32_t kRecent = 4;  ///< rows over which the recent mean fades
 
@@ -83,7 +87,8 @@ class Field {
   std::vector<uint32_t> history_;    ///< decaying mean of the magnitudes over components
   /// Sums of the magnitudes of each row's neighbours beyond the ring and in it.
   std::vector<std::array<uint32_t, 2>> near_;
-  uint32_t recent_ = 0;  ///< decaying mean along the rows, times 4
+  uint32_t learned_components_;  ///< the first ones
+  uint32_t recent_ = 0;          ///< decaying mean along the rows, times 4
 };
 
 inline float Field::predict(uint32_t row, const float* plane) const {
@@ -115,6 +120,8 @@ template <class Residual>
 void Field::code_component(Residual&& residual) {
   if (planes_.empty() && options_.predict) estimator_.solve();
   const auto rows = static_cast<uint32_t>(magnitude_.size());
+  const bool learns = component_count() < learned_components_;
+  if (learns) estimator_.begin_component();
   std::vector<float>& plane = planes_.emplace_back(rows);
   double energy = 0;
   for (uint32_t row = 0; row < rows; ++row) {
@@ -133,9 +140,9 @@ void Field::code_component(Residual&& residual) {
     }
     recent_ -= recent_ / kRecent;
     plane[row] = value;
-    if (options_.adaptive) estimator_.note(row, value, n == 0);
+    if (learns) estimator_.note(row, value, n == 0);
   }
-  finish_component(energy);
+  finish_component(energy, learns);
 }
 
 }  // namespace reeb

@@ -116,9 +116,9 @@ void WeightEstimator::make_equations() {
   if (equations_.empty()) equations_.resize(graph_.size(), RowEquations{});
 }
 
-void WeightEstimator::observe(double noise) {
+// As late as can be: after the last component that anything is solved for, rows need not learn.
+void WeightEstimator::begin_component() {
   make_equations();
-  scale_[observations_++] = 1.0 / std::sqrt(noise);
   if (observations_ < kObservations) return;
   parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {
     for (uint32_t r = begin; r < end; ++r) {
@@ -128,6 +128,10 @@ void WeightEstimator::observe(double noise) {
   });
   std::fill(folded_.begin(), folded_.end(), uint8_t{0});
   observations_ = 0;
+}
+
+void WeightEstimator::finish_component(double noise) {
+  scale_[observations_++] = 1.0 / std::sqrt(noise);
 }
 
 void WeightEstimator::fold(uint32_t r) {
@@ -158,20 +162,20 @@ void WeightEstimator::solve() {
   std::fill(stale_.begin(), stale_.end(), uint8_t{0});
   const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
   parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
-      solve(&rows[first], std::min(kLanes, static_cast<uint32_t>(rows.size()) - first));
+    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes) solve(rows, first);
   });
 }
 
-void WeightEstimator::solve(const uint32_t* rows, uint32_t count) {
+void WeightEstimator::solve(const std::vector<uint32_t>& rows, uint32_t first) {
+  const uint32_t count = std::min(kLanes, static_cast<uint32_t>(rows.size()) - first);
   float dropped[kMaxNeighbours];
   const RowEquations* equations[kLanes];
   uint32_t row[kLanes];
   float* out[kLanes];
   for (uint32_t l = 0; l < kLanes; ++l) {
     // Lanes past the end repeat the last row; their results are dropped.
-    row[l] = rows[std::min(l, count - 1)];
-    if (l + 1 < count) prefetch(equations_[rows[l + 1]]);
+    row[l] = rows[first + std::min(l, count - 1)];
+    if (first + l + 1 < rows.size()) prefetch(equations_[rows[first + l + 1]]);
     if (l < count) fold(row[l]);
     equations[l] = &equations_[row[l]];
     out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;

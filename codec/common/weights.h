@@ -37,6 +37,9 @@ class WeightEstimator {
   /// observed yet.
   void observe_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
+  /// Starts a component to learn from.
+  void begin_component();
+
   /// The row's value in the component being decoded, and whether it was predicted `exactly`: a row
   /// that was not becomes stale.
   void note(uint32_t row, float value, bool exactly) {
@@ -46,7 +49,7 @@ class WeightEstimator {
 
   /// Learns from the component, all of whose rows are noted and whose residuals had the given
   /// variance.
-  void observe(double noise);
+  void finish_component(double noise);
 
   /// Lets all that is observed count `factor` times as much; all rows become stale.
   void fade(double factor);
@@ -60,7 +63,8 @@ class WeightEstimator {
  private:
   void make_equations();
   void fold(uint32_t row);
-  void solve(const uint32_t* rows, uint32_t count);
+  /// For rows[first] and the seven after it.
+  void solve(const std::vector<uint32_t>& rows, uint32_t first);
 
   const PredictionGraph& graph_;
   WeightOptions options_;

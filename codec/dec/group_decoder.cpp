@@ -88,6 +88,7 @@ bool decode_basis_planes(const GroupChunk& chunk, const PredictionGraph& graph,
   }
   Field field(graph, basis_field_options(), 1);
   std::swap(field.model(), contexts);
+  field.expect(count);
   BinaryDecoder decoder(chunk.basis);
   for (uint32_t k = 0; k < count; ++k) {
     if (stop.requested() || !decode_component(field, decoder)) return false;
@@ -157,6 +158,7 @@ Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, uns
     whole = decode_lane_field(chunk.coefficients, count, field, planes, stop);
   } else {
     if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
+    if (!keep) state.coefficients->expect(count);
     whole = decode_coefficients(chunk.coefficients, count, *state.coefficients, stop);
   }
   if (stop.requested()) return Status::cancelled();

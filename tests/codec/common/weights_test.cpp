@@ -83,8 +83,9 @@ Eigen::VectorXd best_weights(const Fixture& f, uint32_t r, const WeightOptions& 
 
 void observe(WeightEstimator& estimator, const std::vector<float>& plane, bool exactly,
              double noise) {
+  estimator.begin_component();
   for (uint32_t r = 0; r < plane.size(); ++r) estimator.note(r, plane[r], exactly);
-  estimator.observe(noise);
+  estimator.finish_component(noise);
 }
 
 std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsigned threads,
@@ -243,6 +244,7 @@ TEST_CASE("weights of rows predicted without error need not be solved for", "[we
     lazy.solve();
     eager.solve();
     std::vector<float> plane(rows);
+    lazy.begin_component();
     for (uint32_t r = 0; r < rows; ++r) {
       const PredictionGraph::Row& row = f.surface.graph.rows[r];
       for (uint32_t i = 0; i < row.count; ++i)
@@ -251,7 +253,7 @@ TEST_CASE("weights of rows predicted without error need not be solved for", "[we
       if (!exactly) plane[r] += std::round(f.planes[o][r]);
       lazy.note(r, plane[r], exactly);
     }
-    lazy.observe(f.noise[o]);
+    lazy.finish_component(f.noise[o]);
     observe(eager, plane, false, f.noise[o]);
     for (size_t i = 0; i < size_t{rows} * kMaxNeighbours; ++i)
       REQUIRE(lazy.weights(0)[i] == Approx(eager.weights(0)[i]).margin(1e-4));
