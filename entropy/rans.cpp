@@ -164,11 +164,14 @@ bool RansDecoder::open(std::span<const uint8_t> section, uint32_t lanes) {
 
 int32_t RansDecoder::large(uint32_t symbol) {
   const uint32_t b = rans_symbol_bucket(symbol);
-  uint32_t low = 0;
-  for (uint32_t i = 0; i < rans_bucket::extra_bits(b); ++i, ++bit_at_) {
-    const uint64_t byte = bit_at_ / 8;
-    if (byte < raw_.size()) low |= (uint32_t{raw_[byte]} >> (bit_at_ % 8) & 1) << i;
-  }
+  const uint32_t extra = rans_bucket::extra_bits(b);
+  const uint64_t first = bit_at_ / 8;
+  const uint32_t skipped = bit_at_ % 8;
+  uint64_t bits = 0;
+  for (uint32_t i = 0; 8 * i < skipped + extra && first + i < raw_.size(); ++i)
+    bits |= uint64_t{raw_[first + i]} << (8 * i);
+  const uint32_t low = static_cast<uint32_t>(bits >> skipped) & ((1u << extra) - 1);
+  bit_at_ += extra;
   const auto magnitude = static_cast<int32_t>(rans_bucket::begin(b) + low);
   return symbol % 2 == 1 ? -magnitude : magnitude;
 }

@@ -38,8 +38,8 @@ int64_t largest_integer(const std::vector<double>& basis) {
   return std::llrint(largest * kBasisUnits);
 }
 
-uint32_t pack(int64_t first, int64_t second) {
-  return static_cast<uint32_t>(first & 0xFFFF) | static_cast<uint32_t>(second) << 16;
+uint32_t pack(int32_t first, int32_t second) {
+  return (static_cast<uint32_t>(first) & 0xFFFF) | static_cast<uint32_t>(second) << 16;
 }
 
 int32_t unpack(uint32_t pair, uint32_t which) { return static_cast<int16_t>(pair >> (16 * which)); }
@@ -77,7 +77,7 @@ void ComponentSum::fill_basis(const std::vector<std::vector<double>>& basis, dou
   }
   for (uint32_t i = 0; i < narrow_; ++i) {
     for (size_t row = 0; row < rows; ++row) {
-      const int64_t x = std::llrint(basis[wide_ + i][row] * kBasisUnits);
+      const auto x = static_cast<int32_t>(std::llrint(basis[wide_ + i][row] * kBasisUnits));
       narrow_basis_[row * pairs() + i / 2] |= i % 2 == 0 ? pack(x, 0) : pack(0, x);
     }
   }

@@ -57,6 +57,9 @@ struct Decoder::Impl {
   Status find_reference(size_t group, const ReferenceChunk*& reference) const;
   Status faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces);
   Status triangles_of(ShotFaces& faces);
+  /// The group of a frame that has at most `most_vertices`.
+  Status open_group(uint32_t frame, size_t most_vertices, const StopToken& stop,
+                    std::shared_ptr<const OpenGroup>& group);
   Status positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
                    std::shared_ptr<ShotFaces>& faces);
   Status normals(ShotFaces& faces, const FrameTarget& target);
@@ -143,16 +146,21 @@ Status Decoder::Impl::triangles_of(ShotFaces& faces) {
   return {};
 }
 
-Status Decoder::Impl::positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
-                                std::shared_ptr<ShotFaces>& faces) {
+Status Decoder::Impl::open_group(uint32_t frame, size_t most_vertices, const StopToken& stop,
+                                 std::shared_ptr<const OpenGroup>& group) {
   size_t index = 0;
   if (Status s = find_group(frame, index); !s.ok()) return s;
   GroupRequest request;
   if (Status s = make_request(index, request); !s.ok()) return s;
-  if (request.reference.mesh_header.vertex_count > target.vertex_capacity)
+  if (request.reference.mesh_header.vertex_count > most_vertices)
     return Status::invalid(frame_name(frame) + " has more vertices than there is room for");
+  return store.get(request, stop, group);
+}
+
+Status Decoder::Impl::positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
+                                std::shared_ptr<ShotFaces>& faces) {
   std::shared_ptr<const OpenGroup> group;
-  if (Status s = store.get(request, stop, group); !s.ok()) return s;
+  if (Status s = open_group(frame, target.vertex_capacity, stop, group); !s.ok()) return s;
   group->synthesis.frame(frame - group->header.first_frame, target.positions, target.stride);
   faces = group->shot->faces;
   return {};
@@ -335,6 +343,24 @@ Status Decoder::triangles(uint32_t frame, std::span<const uint32_t>& out) {
 
 Status Decoder::decode_frame(uint32_t frame, const FrameTarget& target) {
   return impl_->run([&](const StopToken& stop) { return impl_->between(frame, 0, stop, target); });
+}
+
+Status Decoder::decode_frames(uint32_t first, uint32_t count, float* xyz, size_t frame_stride) {
+  return impl_->run([&](const StopToken& stop) -> Status {
+    if (xyz == nullptr) return Status::invalid("there is no place for positions");
+    for (uint32_t done = 0; done < count;) {
+      std::shared_ptr<const OpenGroup> group;
+      if (Status s = impl_->open_group(first + done, frame_stride / 3, stop, group); !s.ok())
+        return s;
+      const uint32_t at = first + done - group->header.first_frame;
+      const uint32_t there = std::min(count - done, group->header.frame_count - at);
+      group->synthesis.frames(at, there, xyz + done * frame_stride, frame_stride, 3);
+      done += there;
+      impl_->stats.frames += there;
+      impl_->look_ahead(first + done - 1);
+    }
+    return {};
+  });
 }
 
 Status Decoder::decode_at(double time, const FrameTarget& target) {

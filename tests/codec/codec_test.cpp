@@ -228,6 +228,27 @@ TEST_CASE("a frame is written with the caller's stride and nothing beside it", "
     CHECK(wide[i] == (i % 7 < 3 ? tight[i / 7 * 3 + i % 7] : -5.0f));
 }
 
+TEST_CASE("several frames at once are the same as one after another", "[codec]") {
+  EncodeOptions options = quick_options();
+  options.group_length = 5;
+  const Encoded out = encode_or_fail(sequence_of({animate(torus(9, 7), 23)}), options);
+  const auto decoder = open(out.bytes);
+  constexpr size_t kStride = 3 * 63 + 4;
+  std::vector<float> xyz(19 * kStride, -5.0f);
+  REQUIRE(decoder->decode_frames(3, 18, xyz.data(), kStride).ok());  // of five groups
+  for (uint32_t t = 0; t < 19; ++t) {
+    std::vector<float> expected(kStride, -5.0f);
+    if (t < 18) REQUIRE(decoder->decode_frame(3 + t, expected.data()).ok());
+    CHECK(std::equal(expected.begin(), expected.end(), xyz.begin() + t * kStride));
+  }
+  CHECK(decoder->decode_frames(3, 0, xyz.data(), kStride).ok());
+  CHECK(decoder->decode_frames(0, 1, nullptr, kStride).code() == StatusCode::kInvalidArgument);
+  CHECK(decoder->decode_frames(0, 1, xyz.data(), 188).code() == StatusCode::kInvalidArgument);
+  CHECK(decoder->decode_frames(22, 2, xyz.data(), kStride).code() == StatusCode::kInvalidArgument);
+  CHECK(decoder->decode_frames(UINT32_MAX, 3, xyz.data(), kStride).code() ==
+        StatusCode::kInvalidArgument);
+}
+
 TEST_CASE("frames that are not there are refused", "[codec]") {
   const Encoded out = encode_or_fail(sequence_of({animate(tetrahedron(), 2)}), quick_options());
   const auto decoder = open(out.bytes);
