@@ -22,7 +22,7 @@ run() {
 }
 export -f run
 
-# The shortest inputs that were found, up to 64 KB of them: seeds to learn from, not a record.
+# The shortest inputs that were found, up to 32 KB of them: seeds to learn from, not a record.
 keep() {
   local name=$1 total=0
   local corpus=tests/fuzz/corpus/$name kept=$build/kept/$name
@@ -31,7 +31,7 @@ keep() {
   rm -rf "$corpus" && mkdir "$corpus"
   for input in $(ls -Sr "$kept"); do
     total=$((total + $(stat -c %s "$kept/$input")))
-    [[ $total -le 65536 ]] || break
+    [[ $total -le 32768 ]] || break
     cp "$kept/$input" "$corpus/"
   done
 }
