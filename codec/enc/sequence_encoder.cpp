@@ -174,17 +174,19 @@ RatePoint SequenceEncoder::expect(double q) const {
 
 double SequenceEncoder::guess_step() const {
   if (energy_ <= 0) return kAnyStep;
-  double low = std::log(std::max(least_step(), 1e-30));
-  double high = 0.5 * std::log(energy_);
-  while (high - low > 0.01) {
-    const double middle = 0.5 * (low + high);
-    const RatePoint point = expect(std::exp(middle));
-    const bool fine = is_error(options_.target)
-                          ? kg_of(point.distortion) < options_.target_value
-                          : point.bits > 8 * options_.target_value * bytes_per_unit();
-    (fine ? low : high) = middle;
+  const auto fine = [this](double x) {
+    const RatePoint point = expect(std::exp(x));
+    return is_error(options_.target) ? kg_of(point.distortion) < options_.target_value
+                                     : point.bits > 8 * options_.target_value * bytes_per_unit();
+  };
+  // From coarse steps on, since fine ones need components that will not be sent.
+  const double least = std::log(std::max(least_step(), 1e-30));
+  double low = 0.5 * std::log(energy_);
+  while (low > least && !fine(low)) low -= std::log(2.0);
+  for (double width = std::log(2.0); width > 0.01; width /= 2) {
+    if (fine(low + width / 2)) low += width / 2;
   }
-  return std::exp(low);
+  return std::exp(std::max(low, least));
 }
 
 double SequenceEncoder::expected_slope(double q) const {
