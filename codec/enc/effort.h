@@ -11,8 +11,8 @@ struct EffortPreset {
   double grid_doubt;
   int grid_trials;     ///< at most
   int base_trials;     ///< steps tried under the corrections of a bounded error
+  int polish_trials;   ///< steps tried beside the last one
   bool loose_trial;    ///< loose weights are tried
-  double tolerance;    ///< how far below its target an error or a size may stay, at most 0.01
   bool region_trials;  ///< the motion model is tried in the main profile too
 };
 

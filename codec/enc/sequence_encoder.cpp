@@ -18,8 +18,9 @@ constexpr double kGuessedPrecision =
 constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
-constexpr double kMostTolerance = 0.01;
-constexpr double kSlopeStride = 1.2;  ///< ratio of steps between which a slope is taken
+constexpr double kTolerance = 0.0095;
+constexpr double kPolishStride = 0.003;  ///< in ln q, between steps tried beside the last one
+constexpr double kSlopeStride = 1.2;     ///< ratio of steps between which a slope is taken
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
 constexpr double kBoundPerError = 2.5;  ///< guess of the bound on corrected errors, in RMS errors
@@ -148,12 +149,30 @@ Status SequenceEncoder::finish_search() {
   // As many components as pay at the step that is likely to be the last; with their number the
   // error would jump by more than the tolerance.
   hold_components(false);
-  if (Status s = search(0, effort_.tolerance, 1); !s.ok()) return s;
+  if (Status s = search(0, kTolerance, 1); !s.ok()) return s;
   hold_components(true);
-  if (Status s = search(0, effort_.tolerance, kTrials); !s.ok()) return s;
-  if (best_.excess <= 0 && best_.excess >= -kMostTolerance) return {};
+  if (Status s = search(0, kTolerance, kTrials); !s.ok()) return s;
+  if (meets(best_)) return polish();
   hold_components(false);
-  return search(0, kMostTolerance, kTrials);
+  return search(0, kTolerance, kTrials);
+}
+
+bool SequenceEncoder::meets(const Attempt& a) const {
+  return a.excess <= 0 && a.excess >= -kTolerance;
+}
+
+// Rate and error do not follow the step smoothly: of steps next to each other one is the best.
+Status SequenceEncoder::polish() {
+  const double q = best_.q;
+  for (int i = 0; i < effort_.polish_trials; ++i) {
+    const int stride = i % 2 == 0 ? i / 2 + 1 : -(i / 2 + 1);
+    Attempt a;
+    if (Status s = attempt(q * std::exp(kPolishStride * stride), a); !s.ok()) return s;
+    const bool better = is_error(options_.target) ? a.bytes.size() < best_.bytes.size()
+                                                  : a.squared_error < best_.squared_error;
+    if (meets(a) && better) best_ = std::move(a);
+  }
+  return {};
 }
 
 double SequenceEncoder::least_step() const {

@@ -43,6 +43,10 @@ class SequenceEncoder {
   Status search(double slack, double tolerance, int max_trials);
   /// The last search, for real.
   Status finish_search();
+  /// True where it is within the tolerance below the target.
+  bool meets(const Attempt& a) const;
+  /// Tries steps next to that of `best_`, which meets the target, and keeps the best of all.
+  Status polish();
   /// Keeps the numbers of components of `best_`, or lets them go.
   void hold_components(bool held);
   /// Bits and squared error to expect.
