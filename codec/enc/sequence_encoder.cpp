@@ -20,6 +20,7 @@ constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
 constexpr double kTolerance = 0.0095;
 constexpr double kPolishStride = 0.003;  ///< in ln q, between steps tried beside the last one
+constexpr int kHalvings = 7;             ///< of an octave of steps, to find the first one
 constexpr double kSlopeStride = 1.2;     ///< ratio of steps between which a slope is taken
 constexpr int kRoughTrials = 6;
 constexpr int kTrials = 10;
@@ -202,8 +203,9 @@ double SequenceEncoder::guess_step() const {
   const double least = std::log(std::max(least_step(), 1e-30));
   double low = 0.5 * std::log(energy_);
   while (low > least && !fine(low)) low -= std::log(2.0);
-  for (double width = std::log(2.0); width > 0.01; width /= 2) {
-    if (fine(low + width / 2)) low += width / 2;
+  for (int i = 1; i <= kHalvings; ++i) {
+    const double width = std::log(2.0) * std::exp2(-i);
+    if (fine(low + width)) low += width;
   }
   return std::exp(std::max(low, least));
 }
