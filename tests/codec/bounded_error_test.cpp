@@ -126,13 +126,13 @@ TEST_CASE("frames that are equal cost next to nothing", "[bounded]") {
                                     one.shots[0].positions.end());
   }
   const size_t single = check_bound(one, 1e-4);
-  CHECK(check_bound(still, 1e-4) < single + 280);
+  CHECK(check_bound(still, 1e-4) < single + 250);
 
   // Noise far below the bound is not coded.
   std::mt19937 random(3);
   for (float& x : still.shots[0].positions)
     x += 1e-16f * static_cast<float>(static_cast<int>(random() % 3) - 1);
-  CHECK(check_bound(still, 1e-4) < single + 280);
+  CHECK(check_bound(still, 1e-4) < single + 250);
 }
 
 TEST_CASE("a bound above the size of everything keeps little", "[bounded]") {
