@@ -49,6 +49,11 @@ FieldOptions basis_field_options() {
   return options;
 }
 
+std::vector<float> fixed_weights(const SurfaceGraph& surface, const GridPoints& points) {
+  return reference_weights(surface.graph, surface_field_options(Profile::kFast).weights, points,
+                           surface.order);
+}
+
 Field::Plan::Plan(const PredictionGraph& graph, bool predict) : uses(find_uses(graph)) {
   rows.reserve(graph.size());
   neighbours.reserve(graph.size());
@@ -72,7 +77,7 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
       learned_components_(options.adaptive ? UINT32_MAX : 0) {}
 
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
-  estimator_.observe_reference(points, order);
+  if (options_.predict) estimator_.observe_reference(points, order);
 }
 
 void Field::expect(uint32_t components) {

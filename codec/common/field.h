@@ -21,12 +21,16 @@ struct FieldOptions {
   double noise_share = 0.8;   ///< of a component's residual variance, as observation noise
   double noise_floor = 0.02;  ///< observation noise of a perfectly predicted component, in q^2
   bool predict = true;        ///< along the surface; false codes the values as they are
-  bool adaptive = true;  ///< re-estimate weights; false keeps those of the reference (fast profile)
+  bool adaptive = true;       ///< re-estimate weights; false keeps those of the reference
 };
 
 /// Options of the two fields of a group; `loose` as in its header.
 FieldOptions surface_field_options(Profile profile, bool loose = false);
 FieldOptions basis_field_options();
+
+/// Weights of the coefficients in the fast profile, which come from the reference alone:
+/// kMaxNeighbours a row.
+std::vector<float> fixed_weights(const SurfaceGraph& surface, const GridPoints& points);
 
 /// Values are in units of the group's quantization step q.
 class Field {

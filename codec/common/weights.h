@@ -80,8 +80,7 @@ class WeightEstimator {
   std::vector<float> weights_;
 };
 
-/// The weights that a WeightEstimator has after `observe_reference` and `solve`: kMaxNeighbours a
-/// row.
+/// The weights that a WeightEstimator has after `observe_reference`: kMaxNeighbours a row.
 std::vector<float> reference_weights(const PredictionGraph& graph, const WeightOptions& options,
                                      const GridPoints& points, const std::vector<uint32_t>& order);
 

@@ -1,12 +1,11 @@
 #include "codec/dec/group_decoder.h"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "codec/common/correction_field.h"
 #include "codec/common/lane_field.h"
+#include "codec/common/largest_magnitude.h"
 #include "codec/common/motion_syntax.h"
 #include "codec/dec/lossless_decoder.h"
 
@@ -22,11 +21,8 @@ bool decode_component(Field& field, BinaryDecoder& decoder) {
     return field.model().code(local, bins, 0);
   });
   decoder = local;
-  uint32_t largest = 0;
-  for (const float x : field.plane(field.component_count() - 1))
-    largest = std::max(largest, std::bit_cast<uint32_t>(x) & 0x7FFFFFFF);
-  if (!std::isfinite(std::bit_cast<float>(largest))) return false;
-  return !decoder.overrun();
+  const std::vector<float>& plane = field.plane(field.component_count() - 1);
+  return std::isfinite(largest_magnitude(plane)) && !decoder.overrun();
 }
 
 /// What the fields of the header must be to each other.
@@ -143,27 +139,31 @@ bool decode_coefficients(std::span<const uint8_t> bytes, uint32_t count, Field& 
 
 namespace {
 
-/// The planes of the coefficient section.
+Status coefficient_status(bool whole, const StopToken& stop) {
+  if (stop.requested()) return Status::cancelled();
+  return whole ? Status() : Status::corrupt("the coefficient section is damaged");
+}
+
+/// The planes of the coefficient section, fast profile.
+Status decode_fixed_planes(const GroupChunk& chunk, const DecodedSurface& surface,
+                           const StopToken& stop, std::vector<std::vector<float>>& planes) {
+  std::vector<float> own;  // of a mesh that is not plain
+  if (surface.weights.empty()) own = fixed_weights(surface.surface, GridPoints(surface.grid));
+  LaneField field(surface.surface.graph, own.empty() ? surface.weights : own, {});
+  return coefficient_status(
+      decode_lane_field(chunk.coefficients, chunk.header.component_count, field, planes, stop),
+      stop);
+}
+
+/// The same of the other profiles.
 Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                      bool keep, const StopToken& stop, GroupState& state,
                      std::vector<std::vector<float>>& planes) {
   const uint32_t count = chunk.header.component_count;
-  bool whole = false;
-  if (chunk.header.profile == Profile::kFast) {
-    std::vector<float> own;  // of a mesh that is not plain
-    if (surface.weights.empty())
-      own = reference_weights(surface.surface.graph, surface_field_options(Profile::kFast).weights,
-                              GridPoints(surface.grid), surface.surface.order);
-    LaneField field(surface.surface.graph, own.empty() ? surface.weights : own, {});
-    whole = decode_lane_field(chunk.coefficients, count, field, planes, stop);
-  } else {
-    if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
-    if (!keep) state.coefficients->expect(count);
-    whole = decode_coefficients(chunk.coefficients, count, *state.coefficients, stop);
-  }
-  if (stop.requested()) return Status::cancelled();
-  if (!whole) return Status::corrupt("the coefficient section is damaged");
-  if (chunk.header.profile == Profile::kFast) return {};
+  if (Status s = start_group(chunk, surface, threads, state); !s.ok()) return s;
+  if (!keep) state.coefficients->expect(count);
+  const bool whole = decode_coefficients(chunk.coefficients, count, *state.coefficients, stop);
+  if (Status s = coefficient_status(whole, stop); !s.ok()) return s;
   planes = keep ? state.coefficients->next_group() : state.coefficients->take_planes();
   return {};
 }
@@ -186,7 +186,10 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   MotionModel motion;
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
   std::vector<std::vector<float>> planes;
-  if (Status s = decode_planes(chunk, surface, threads, keep, stop, state, planes); !s.ok())
+  if (Status s = header.profile == Profile::kFast
+                     ? decode_fixed_planes(chunk, surface, stop, planes)
+                     : decode_planes(chunk, surface, threads, keep, stop, state, planes);
+      !s.ok())
     return s;
   if (motion.regions() > 0) add_motion(motion, planes);
   if (header.profile == Profile::kThesis) {

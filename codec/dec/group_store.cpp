@@ -19,9 +19,7 @@ DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header, b
   out.grid = std::move(mesh.grid);
   if (plain) {
     out.surface = std::move(mesh.surface);
-    out.weights =
-        reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
-                          GridPoints(out.grid), out.surface.order);
+    out.weights = fixed_weights(out.surface, GridPoints(out.grid));
   } else {
     out.surface = build_surface_graph(GridPoints(out.grid), mesh.triangles);
   }

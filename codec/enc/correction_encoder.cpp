@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "codec/common/correction_field.h"
+#include "codec/common/largest_magnitude.h"
 #include "entropy/range_coder.h"
 
 namespace reeb {
@@ -55,12 +56,6 @@ std::vector<float> decode_vertices(const GroupSynthesis& base, uint32_t vertices
   std::vector<float> out(size_t{vertices} * frames * 3);
   base.frames(0, frames, out.data(), 3, size_t{3} * frames);
   return out;
-}
-
-float largest_magnitude(std::span<const float> values) {
-  float largest = 0;
-  for (const float x : values) largest = std::max(largest, std::abs(x));
-  return largest;
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ RateModel::RateModel(const SurfaceContext& surface, KarhunenLoeve& transform, ui
 
 void RateModel::sort_samples(const SurfaceContext& surface) {
   const PredictionGraph& graph = surface.surface.graph;
-  const std::vector<float> weights =
-      reference_weights(graph, surface_field_options(Profile::kFast).weights, surface.points(),
-                        surface.surface.order);
+  std::vector<float> own;  // of a surface that has none, since its field learns them
+  if (surface.weights.empty()) own = fixed_weights(surface.surface, surface.points());
+  const std::vector<float>& weights = own.empty() ? surface.weights : own;
   const Eigen::VectorXd energy = transform_.row_energies();
   const double mean = energy.mean();
   const uint32_t octaves = octave_of(graph.size()) + 1;

@@ -59,11 +59,7 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
     out.input[row] = out.input_of[out.surface.order[row]];
     out.row_of[out.input[row]] = row;
   }
-  if (options.fixed_weights) {
-    out.weights =
-        reference_weights(out.surface.graph, surface_field_options(Profile::kFast).weights,
-                          out.points(), out.surface.order);
-  }
+  if (options.fixed_weights) out.weights = fixed_weights(out.surface, out.points());
   return {};
 }
 

@@ -30,9 +30,7 @@ BuiltMesh finish_mesh(Bytes bytes) {
   require(decode_reference(bytes, {}, mesh));
   if (mesh.surface.graph.size() == 0)
     mesh.surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
-  std::vector<float> weights =
-      reference_weights(mesh.surface.graph, surface_field_options(Profile::kFast).weights,
-                        GridPoints(mesh.grid), mesh.surface.order);
+  std::vector<float> weights = fixed_weights(mesh.surface, GridPoints(mesh.grid));
   return {std::move(bytes), std::move(mesh.grid), std::move(mesh.surface), std::move(weights)};
 }
 
