@@ -240,16 +240,14 @@ void SequenceEncoder::set_regions(uint32_t count) {
   for (auto& shot : shots_) shot->set_regions(count);
 }
 
-Status SequenceEncoder::try_setting(bool& kept, double share) {
+Status SequenceEncoder::try_setting(bool& kept) {
   Attempt a;
   if (Status s = attempt(best_.q, a); !s.ok()) return s;
   const double slope = kErrorPerBit * best_.q * best_.q;
   const auto cost = [&](const Attempt& x) {
     return (bounded() ? 0 : x.squared_error) + slope * 8 * static_cast<double>(x.bytes.size());
   };
-  kept = share < 1
-             ? static_cast<double>(a.bytes.size()) < share * static_cast<double>(best_.bytes.size())
-             : cost(a) < cost(best_);
+  kept = cost(a) < cost(best_);
   if (kept) best_ = std::move(a);
   return {};
 }
@@ -294,10 +292,15 @@ Status SequenceEncoder::choose_meshes() {
   for (auto& shot : shots_) {
     if (Status s = shot->set_plain(false); !s.ok()) return s;
   }
-  bool kept = false;
-  if (Status s = try_setting(kept, kSlowMeshShare); !s.ok()) return s;
+  Attempt a;
+  if (Status s = attempt(best_.q, a); !s.ok()) return s;
+  const auto most = kSlowMeshShare * static_cast<double>(best_.bytes.size());
+  if (static_cast<double>(a.bytes.size()) < most) {
+    best_ = std::move(a);
+    return {};
+  }
   for (auto& shot : shots_) {
-    if (Status s = shot->set_plain(!kept); !s.ok()) return s;
+    if (Status s = shot->set_plain(true); !s.ok()) return s;
   }
   return {};
 }

@@ -68,9 +68,8 @@ class SequenceEncoder {
   Status choose_meshes();
   Status choose_regions();
   Status choose_looseness();
-  /// Tries a setting at the step of `best_`; keeps it where it pays, or, with a `share` below 1,
-  /// where it takes less than that share of the bytes. Returns whether it did.
-  Status try_setting(bool& kept, double share = 1);
+  /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
+  Status try_setting(bool& kept);
 
   Status set_grids(double coordinate_error);
   void set_regions(uint32_t count);

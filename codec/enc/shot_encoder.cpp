@@ -12,8 +12,8 @@ namespace {
 
 constexpr uint32_t kLeastBits = 9;
 constexpr uint32_t kMostBits = 16;
-// Weights need no finer reference than this; fitted to what trials chose on ten sequences.
 constexpr double kGroupOverhead = 8 * 60;  ///< bits of headers, checksums and the seek table
+// Weights need no finer reference than this; fitted to what trials chose on ten sequences.
 constexpr double kGridBase = 3.6;
 constexpr double kGridSlope = 0.6;       ///< bits per halving of the error
 constexpr uint32_t kLongestGroup = 512;  ///< frames, unless asked for

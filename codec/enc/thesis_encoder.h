@@ -14,8 +14,8 @@ class ThesisEncoder : public GroupEncoder {
 
   CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
                     GroupRun& run) override;
-  /// Positions less the origin, column 3 t + axis.
   RatePoint expect(const SurfaceContext& surface, double q) override;
+  /// Positions less the origin, column 3 t + axis.
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
  private:

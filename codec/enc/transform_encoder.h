@@ -2,6 +2,7 @@
 // the surface.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "codec/enc/group_encoder.h"
