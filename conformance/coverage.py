@@ -38,10 +38,10 @@ INTERFACE = {
 OTHER_FILES = ("bitstream/trace.cpp", "bitstream/container_writer.cpp", "codec/common/sequence.h", "codec/common/faces.cpp",
                "codec/common/coding_tools.h")
 OTHERS = re.compile(
-    r"reeb::(append_|write_|SyntaxWriter::|BinaryEncoder::|RansEncoder::|rans_frequencies|Status::(io|invalid)\b|"
+    r"reeb::(append_|write_|SyntaxWriter::|BinaryEncoder::|RansEncoder::|RawBitWriter::|rans_frequencies|Status::(io|invalid)\b|"
     r"MagnitudeModel::representable|ComponentSum::basis|WeightEstimator::WeightEstimator\(reeb::WeightEstimator const|"
     r"(varuint|f64)_size\b|\w+_kernel::\(anonymous namespace\)::(guess|note)_lanes)|Syntax<reeb::SyntaxWriter>|"
-    r"\(anonymous namespace\)::(append_(group|u32)|count_frames|shortest|quoted|plain_order|BitWriter|rans_symbol)|"
+    r"\(anonymous namespace\)::(append_(group|u32)|count_frames|shortest|quoted|plain_order|rans_symbol)|"
     r"BinaryEncoder")
 
 

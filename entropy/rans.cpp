@@ -48,22 +48,6 @@ uint32_t read_u32(const uint8_t* at) {
   return at[0] | uint32_t{at[1]} << 8 | uint32_t{at[2]} << 16 | uint32_t{at[3]} << 24;
 }
 
-/// Bits, lowest first.
-class BitWriter {
- public:
-  void put(uint32_t value, uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i, ++size_) {
-      if (size_ % 8 == 0) bytes_.push_back(0);
-      bytes_.back() = static_cast<uint8_t>(bytes_.back() | (value >> i & 1) << (size_ % 8));
-    }
-  }
-  const std::vector<uint8_t>& bytes() const { return bytes_; }
-
- private:
-  std::vector<uint8_t> bytes_;
-  uint64_t size_ = 0;
-};
-
 }  // namespace
 
 RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& counts) {
@@ -97,10 +81,11 @@ std::vector<uint8_t> RansEncoder::finish() const {
   std::vector<std::array<uint32_t, kRansSymbols>> starts(tables.size());
   for (size_t c = 0; c < tables.size(); ++c)
     std::exclusive_scan(tables[c].begin(), tables[c].end(), starts[c].begin(), 0u);
-  BitWriter raw;
+  RawBitWriter raw;
   for (const Item& item : items_) {
     const auto magnitude = static_cast<uint32_t>(item.n < 0 ? -item.n : item.n);
-    raw.put(magnitude, rans_bucket::extra_bits(rans_bucket::of(magnitude)));
+    const uint32_t b = RansBuckets::of(magnitude);
+    raw.code(magnitude - RansBuckets::begin(b), RansBuckets::extra_bits(b));
   }
   std::array<uint32_t, kRansLanes> state;
   state.fill(kLowest);
@@ -117,11 +102,12 @@ std::vector<uint8_t> RansEncoder::finish() const {
     x = (x / frequency << kRansBits) + x % frequency + starts[item.cls][symbol];
   }
   const std::vector<uint8_t> table_bytes = table_coder.finish();
+  const std::vector<uint8_t> raw_bytes = raw.finish();
   std::vector<uint8_t> out;
   append_u32(out, static_cast<uint32_t>(table_bytes.size()));
-  append_u32(out, static_cast<uint32_t>(raw.bytes().size()));
+  append_u32(out, static_cast<uint32_t>(raw_bytes.size()));
   out.insert(out.end(), table_bytes.begin(), table_bytes.end());
-  out.insert(out.end(), raw.bytes().begin(), raw.bytes().end());
+  out.insert(out.end(), raw_bytes.begin(), raw_bytes.end());
   for (uint32_t l = 0; l < lanes_; ++l) append_u32(out, state[l]);
   for (size_t i = words.size(); i-- > 0;) {
     out.push_back(static_cast<uint8_t>(words[i]));
@@ -147,8 +133,7 @@ bool RansDecoder::open(std::span<const uint8_t> section, uint32_t lanes) {
       for (uint32_t i = 0; i < tables[c][s]; ++i) *slot++ = s << 24 | i << 12 | tables[c][s];
     }
   }
-  raw_ = section.subspan(kFront + table_bytes, raw_bytes);
-  bit_at_ = 0;
+  raw_ = RawBitReader(section.subspan(kFront + table_bytes, raw_bytes));
   const uint8_t* at = section.data() + kFront + table_bytes + raw_bytes;
   cursor_ = {};
   for (uint32_t l = 0; l < lanes; ++l, at += 4) cursor_.state[l] = read_u32(at);
@@ -164,15 +149,8 @@ bool RansDecoder::open(std::span<const uint8_t> section, uint32_t lanes) {
 
 int32_t RansDecoder::large(uint32_t symbol) {
   const uint32_t b = rans_symbol_bucket(symbol);
-  const uint32_t extra = rans_bucket::extra_bits(b);
-  const uint64_t first = bit_at_ / 8;
-  const uint32_t skipped = bit_at_ % 8;
-  uint64_t bits = 0;
-  for (uint32_t i = 0; 8 * i < skipped + extra && first + i < raw_.size(); ++i)
-    bits |= uint64_t{raw_[first + i]} << (8 * i);
-  const uint32_t low = static_cast<uint32_t>(bits >> skipped) & ((1u << extra) - 1);
-  bit_at_ += extra;
-  const auto magnitude = static_cast<int32_t>(rans_bucket::begin(b) + low);
+  const uint32_t size = RansBuckets::begin(b) + raw_.code(0, RansBuckets::extra_bits(b));
+  const auto magnitude = static_cast<int32_t>(size);
   return symbol % 2 == 1 ? -magnitude : magnitude;
 }
 

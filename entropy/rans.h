@@ -8,10 +8,12 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "entropy/buckets.h"
+#include "entropy/raw_bits.h"
 
 namespace reeb {
 
@@ -21,28 +23,16 @@ inline constexpr uint32_t kRansClasses = 20;
 inline constexpr uint32_t kRansSymbols = 123;
 inline constexpr uint32_t kRansMaxMagnitude = (1u << 30) - 1;
 
-/// Magnitudes by buckets: eight of one value each, then two to the octave.
-namespace rans_bucket {
-inline constexpr uint32_t kSingles = 8;
-constexpr uint32_t extra_bits(uint32_t b) { return b < kSingles ? 0 : (b - kSingles) / 2 + 2; }
-constexpr uint32_t begin(uint32_t b) {
-  return b < kSingles ? b : (2 + (b - kSingles) % 2) << extra_bits(b);
-}
-constexpr uint32_t of(uint32_t magnitude) {
-  if (magnitude < kSingles) return magnitude;
-  const auto extra = static_cast<uint32_t>(std::bit_width(magnitude)) - 2;
-  return kSingles + 2 * (extra - 2) + ((magnitude >> extra) & 1);
-}
-}  // namespace rans_bucket
+using RansBuckets = Buckets<2>;
 
 /// Symbol of an integer: 0, then by bucket, the negative sign first.
 constexpr uint32_t rans_symbol(int32_t n) {
   const auto magnitude = static_cast<uint32_t>(n < 0 ? -n : n);
-  return 2 * rans_bucket::of(magnitude) - (n < 0 ? 1 : 0);
+  return 2 * RansBuckets::of(magnitude) - (n < 0 ? 1 : 0);
 }
 constexpr uint32_t rans_symbol_bucket(uint32_t symbol) { return (symbol + 1) / 2; }
 inline constexpr uint32_t kRansLastSingle =
-    2 * (rans_bucket::kSingles - 1);  ///< symbols beyond have raw bits
+    2 * (RansBuckets::kSingles - 1);  ///< symbols beyond have raw bits
 
 /// Frequencies of one class; all zero for a class that does not occur.
 using RansFrequencies = std::array<uint16_t, kRansSymbols>;
@@ -133,14 +123,13 @@ class RansDecoder {
   int32_t large(uint32_t symbol);
 
   /// True once more was read than there is.
-  bool overrun() const { return overrun_ || bit_at_ > 8 * uint64_t{raw_.size()}; }
+  bool overrun() const { return overrun_ || raw_.overrun(); }
 
  private:
   RansCursor cursor_;
   std::vector<uint32_t> slots_;
   std::vector<uint16_t> words_;  ///< and as many zeros behind them as may be read before `settle`
-  std::span<const uint8_t> raw_;
-  uint64_t bit_at_ = 0;
+  RawBitReader raw_{{}};
   bool overrun_ = false;
 };
 

@@ -8,25 +8,12 @@
 #include <cstdint>
 
 #include "codec/common/coding_tools.h"
+#include "entropy/buckets.h"
 #include "entropy/mixer.h"
 
 namespace reeb {
 
-/// Magnitudes by buckets: eight of one value each, then four to the octave, so that a large
-/// magnitude takes few decisions and its distribution within a bucket is nearly even.
-namespace bucket {
-inline constexpr uint32_t kSingles = 8;
-
-constexpr uint32_t extra_bits(uint32_t b) { return b < kSingles ? 0 : (b - kSingles) / 4 + 1; }
-constexpr uint32_t begin(uint32_t b) {
-  return b < kSingles ? b : (4 + (b - kSingles) % 4) << extra_bits(b);
-}
-constexpr uint32_t of(uint64_t n) {
-  if (n < kSingles) return static_cast<uint32_t>(n);
-  const auto bits = static_cast<uint32_t>(std::bit_width(n)) - 3;
-  return static_cast<uint32_t>(n >> bits) - 4 + 4 * (bits - 1) + kSingles;
-}
-}  // namespace bucket
+using MagnitudeBuckets = Buckets<4>;
 
 /// What is known of a residual before it is coded: magnitudes in 1/256 of the quantization step q.
 struct Surroundings {
@@ -45,7 +32,7 @@ struct Surroundings {
 class MagnitudeModel {
  public:
   static constexpr uint32_t kBins = 24;  ///< magnitude buckets; what is beyond them escapes
-  static constexpr uint32_t kEscapeBegin = bucket::begin(kBins);
+  static constexpr uint32_t kEscapeBegin = MagnitudeBuckets::begin(kBins);
   static constexpr uint64_t kMaxMagnitude = (uint64_t{1} << 56) - 1;
 
   static constexpr int kTables = 4;
@@ -119,7 +106,7 @@ class MagnitudeModel {
   template <class Coder>
   int64_t code(Coder& coder, Bins& bins, int64_t value) {
     const auto wanted = static_cast<uint64_t>(value < 0 ? -value : value);
-    const uint32_t wanted_bucket = std::min(kBins, bucket::of(wanted));
+    const uint32_t wanted_bucket = std::min(kBins, MagnitudeBuckets::of(wanted));
     uint32_t b = 0;
     if (bins.calm() && !calm_[bins.calm_class()].code(coder, wanted > 0)) return 0;
     if (bins.calm()) b = 1;
@@ -129,10 +116,11 @@ class MagnitudeModel {
       mixer_.update(bin, more);
     }
     if (b == 0) return 0;
-    const uint64_t within = wanted - bucket::begin(b);
+    const uint64_t within = wanted - MagnitudeBuckets::begin(b);
     const uint64_t magnitude =
-        bucket::begin(b) + (b < kBins ? code_evenly(coder, bucket::extra_bits(b), within)
-                                      : code_escape(coder, bins.escape(), within));
+        MagnitudeBuckets::begin(b) +
+        (b < kBins ? code_evenly(coder, MagnitudeBuckets::extra_bits(b), within)
+                   : code_escape(coder, bins.escape(), within));
     const bool negative = coder.code(value < 0, kEvenOdds);
     const auto signed_magnitude = static_cast<int64_t>(magnitude);
     return negative ? -signed_magnitude : signed_magnitude;

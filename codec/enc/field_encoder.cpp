@@ -11,8 +11,8 @@ namespace {
 
 /// Bits of a magnitude in one of the kBins buckets.
 double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
-  const uint32_t b = bucket::of(magnitude);
-  double bits = bucket::extra_bits(b) + (magnitude > 0 ? 1 : 0);
+  const uint32_t b = MagnitudeBuckets::of(magnitude);
+  double bits = MagnitudeBuckets::extra_bits(b) + (magnitude > 0 ? 1 : 0);
   for (uint32_t i = 0; i < b; ++i) bits += cost_of(bins.p1(i));
   return bits + cost_of(static_cast<Probability>(65536 - bins.p1(b)));
 }

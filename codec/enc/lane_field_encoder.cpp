@@ -12,7 +12,7 @@ SymbolCosts expected_costs() {
     const double ratio = mean / (1 + mean);
     for (uint32_t s = 0; s < kRansSymbols; ++s) {
       const uint32_t b = rans_symbol_bucket(s);
-      const double magnitude = rans_bucket::begin(b) + 0.5 * std::exp2(rans_bucket::extra_bits(b));
+      const double magnitude = RansBuckets::begin(b) + 0.5 * std::exp2(RansBuckets::extra_bits(b));
       const double bits = -std::log2(1 - ratio) - magnitude * std::log2(ratio);
       out[c][s] = static_cast<float>(s == 0 ? -std::log2(1 - ratio) : std::min(bits + 1, 30.0));
     }
@@ -27,7 +27,7 @@ SymbolCosts costs_of(const RansTables& tables) {
     for (uint32_t s = 0; s < kRansSymbols; ++s) {
       const double share = std::max(0.5, static_cast<double>(tables[c][s])) / (1 << kRansBits);
       out[c][s] =
-          static_cast<float>(rans_bucket::extra_bits(rans_symbol_bucket(s)) - std::log2(share));
+          static_cast<float>(RansBuckets::extra_bits(rans_symbol_bucket(s)) - std::log2(share));
     }
   }
   return out;

@@ -2,6 +2,7 @@
 from .bytes import Reader
 from .entropy import ExpGolomb, RangeDecoder
 from .errors import Corrupt, Truncated, require
+from .raw_bits import RawBits
 
 CLASSES = 20
 SYMBOLS = 123
@@ -13,13 +14,13 @@ class LaneSection:
         reader = Reader(data)
         try:
             table_bytes, raw_bytes = reader.u32(), reader.u32()
-            tables, self.raw = reader.take(table_bytes), reader.take(raw_bytes)
+            tables, self.raw = reader.take(table_bytes), RawBits(reader.take(raw_bytes))
             self.state = [reader.u32() for _ in range(lanes)]
         except Truncated:
             raise Corrupt("a lane section is too short for its parts")
         self.words = reader.take(reader.remaining())
         require(len(self.words) % 2 == 0, "half a word is left")
-        self.next_word = self.next_bit = 0
+        self.next_word = 0
         self.decode_tables(tables)
 
     def decode_tables(self, data):
@@ -53,7 +54,7 @@ class LaneSection:
         b = (s + 1) // 2
         extra = 0 if b < 8 else (b - 8) // 2 + 2
         begin = b if b < 8 else (2 + (b - 8) % 2) << extra
-        size = begin + self.bits(extra)
+        size = begin + self.raw.raw(extra)
         return (-size if s % 2 else size), s
 
     def word(self):
@@ -61,15 +62,5 @@ class LaneSection:
         self.next_word += 1
         return self.words[at] + 256 * self.words[at + 1] if at < len(self.words) else 0
 
-    def bits(self, count):
-        value = 0
-        for i in range(count):
-            byte = self.next_bit // 8
-            bit = self.raw[byte] >> (self.next_bit % 8) & 1 if byte < len(self.raw) else 0
-            value |= bit << i
-            self.next_bit += 1
-        return value
-
     def check(self):
-        require(2 * self.next_word <= len(self.words) and self.next_bit <= 8 * len(self.raw),
-                "a lane section is read past its end")
+        require(2 * self.next_word <= len(self.words), "a lane section is read past its end")

@@ -1,4 +1,4 @@
-"""lossless.md: raw bits."""
+"""lossless.md, and fast.md section 1: raw bits."""
 from .errors import require
 
 

@@ -43,10 +43,10 @@ void check_decodes(const std::vector<uint8_t>& bytes, const std::vector<Item>& i
 TEST_CASE("buckets of rANS symbols tile the magnitudes", "[rans]") {
   uint32_t next = 0;
   for (uint32_t b = 0; b <= (kRansSymbols - 1) / 2; ++b) {
-    REQUIRE(rans_bucket::begin(b) == next);
-    REQUIRE(rans_bucket::of(next) == b);
-    next += 1u << rans_bucket::extra_bits(b);
-    REQUIRE(rans_bucket::of(next - 1) == b);
+    REQUIRE(RansBuckets::begin(b) == next);
+    REQUIRE(RansBuckets::of(next) == b);
+    next += 1u << RansBuckets::extra_bits(b);
+    REQUIRE(RansBuckets::of(next - 1) == b);
   }
   CHECK(next == kRansMaxMagnitude + 1);
   CHECK(rans_symbol(0) == 0);
