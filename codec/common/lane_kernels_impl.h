@@ -7,19 +7,13 @@
 #endif
 
 #include "codec/common/kernels.h"
+#include "codec/common/vector_load.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
 
 namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
-
-template <class V, class T>
-inline V load(const T* from) {
-  V out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
-}
 
 /// Lanes that are taken together. GCC 12 converts vectors wider than the processor's element by
 /// element, so no more than fit one.

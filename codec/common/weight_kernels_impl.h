@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "codec/common/kernels.h"
+#include "codec/common/vector_load.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
 
@@ -53,12 +54,6 @@ inline void transpose(const Vector* in, Vector* out) {
   }
 }
 
-inline Floats8 load8(const float* from) {
-  Floats8 out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
-}
-
 /// Calls function(strip, i, j) for the strips of the matrix that are in use: row i, columns j and
 /// on.
 template <class Function>
@@ -95,7 +90,7 @@ struct Said {
 
 inline void collect(const FoldTask& task, bool to_one, Said& said) {
   for (uint32_t o = task.begin / 8 * 8; o < task.end; o += 8) {
-    const Floats8 self = load8(task.values + size_t{task.row} * kObservations + o);
+    const Floats8 self = load<Floats8>(task.values + size_t{task.row} * kObservations + o);
     for (uint32_t k = 0; k < 8; ++k) said.self[o + k] = static_cast<double>(self[k]);
     const Floats8 padding = to_one ? self : Floats8{};
     for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
@@ -103,8 +98,9 @@ inline void collect(const FoldTask& task, bool to_one, Said& said) {
       Floats8 out[8];
       for (uint32_t k = 0; k < 8; ++k) {
         const bool used = i + k < task.count;
-        in[k] =
-            used ? load8(task.values + size_t{task.neighbour[i + k]} * kObservations + o) : padding;
+        in[k] = used
+                    ? load<Floats8>(task.values + size_t{task.neighbour[i + k]} * kObservations + o)
+                    : padding;
       }
       transpose(in, out);
       for (uint32_t k = 0; k < 8; ++k) {

@@ -8,23 +8,39 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kPasses = 2;  ///< the second with the costs that the first leads to
+/// Codes a field twice, the second time with the costs that the first leads to: `code(encoder)`
+/// codes its blocks and returns how many components, the first ones, are sent. Writes them to
+/// `section` and returns them as decoded.
+template <class Code>
+LaneField::Planes code_twice(const PredictionGraph& graph, std::span<const float> weights,
+                             double lambda, double mass_exponent, Code code,
+                             std::vector<uint8_t>& section) {
+  SymbolCosts costs = expected_costs();
+  for (bool last = false;; last = true) {
+    LaneField field(graph, weights, {});
+    LaneFieldEncoder encoder(field, graph, lambda, mass_exponent, costs);
+    const uint32_t sent = code(encoder);
+    const RansEncoder coded = encoder.section(sent);
+    if (last) {
+      section = coded.finish();
+      LaneField::Planes planes = encoder.planes();
+      planes.resize(sent);
+      return planes;
+    }
+    costs = costs_of(coded.tables());
+  }
+}
 
 }  // namespace
 
 GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surface,
                                                       const MotionFit* motion, GroupRun& /*run*/,
                                                       CodedGroup& out) {
-  const PredictionGraph& graph = surface.surface.graph;
-  SymbolCosts costs = expected_costs();
   const uint32_t most = most_components();
-  Planes planes;
-  for (uint32_t pass = 0; pass < kPasses; ++pass) {
-    LaneField field(graph, surface.weights, {});
-    LaneFieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent, costs);
+  MotionModel model;
+  if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
+  const auto code = [&](LaneFieldEncoder& encoder) {
     StopRule stop(signal_.frames, kCoefficientLambda);
-    MotionModel model;
-    if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
     bool more = true;
     for (uint32_t k = 0, lanes = 0; k < most && more; k += lanes) {
       lanes = lanes_of_block(k, most);
@@ -39,42 +55,26 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
       for (uint32_t l = 0; l < lanes && more; ++l)
         more = stop.add(energy[l], coded[l].error, coded[l].bits) || held_count_;
     }
-    out.component_count = held_count_ ? most : stop.best();
-    const RansEncoder section = encoder.section(out.component_count);
-    if (pass + 1 < kPasses) {
-      costs = costs_of(section.tables());
-      continue;
-    }
-    out.coefficients = section.finish();
-    planes = encoder.planes();
-    planes.resize(out.component_count);
-  }
+    return held_count_ ? most : stop.best();
+  };
+  Planes planes = code_twice(surface.surface.graph, surface.weights, kCoefficientLambda,
+                             kMassExponent, code, out.coefficients);
+  out.component_count = static_cast<uint32_t>(planes.size());
   return planes;
 }
 
 GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float>>& targets,
                                              MagnitudeModel& /*contexts*/, CodedGroup& out) {
-  const PredictionGraph& graph = temporal_.graph;
-  const std::vector<float> weights = prior_weights(graph);
-  SymbolCosts costs = expected_costs();
-  Planes planes;
-  for (uint32_t pass = 0; pass < kPasses; ++pass) {
-    LaneField field(graph, weights, {});
-    LaneFieldEncoder encoder(field, graph, kBasisLambda, 0, costs);
-    const auto count = static_cast<uint32_t>(targets.size());
+  const auto count = static_cast<uint32_t>(targets.size());
+  const auto code = [&](LaneFieldEncoder& encoder) {
     for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
       lanes = lanes_of_block(k, count);
       encoder.code_block({targets.begin() + k, targets.begin() + k + lanes});
     }
-    const RansEncoder section = encoder.section(count);
-    if (pass + 1 < kPasses) {
-      costs = costs_of(section.tables());
-      continue;
-    }
-    out.basis = section.finish();
-    planes = encoder.planes();
-  }
-  return planes;
+    return count;
+  };
+  return code_twice(temporal_.graph, prior_weights(temporal_.graph), kBasisLambda, 0, code,
+                    out.basis);
 }
 
 }  // namespace reeb
