@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "codec/common/list_pool.h"
+#include "codec/common/sort_few.h"
 
 namespace reeb {
 
@@ -15,6 +17,7 @@ constexpr uint32_t kMaxMerged = 12;  ///< valence that a collapse may give to it
 /// A vertex of more triangles is left out, triangles and all: with every valence bounded, so is the
 /// time.
 constexpr uint32_t kMaxFaces = 256;
+constexpr uint32_t kIndexBits = 25;  ///< of a vertex
 constexpr uint32_t kMinProgress =
     200;  ///< stop when a level removes fewer than one vertex in this many
 
@@ -28,8 +31,6 @@ class Collapser {
         neighbours_({}),
         faces_({}),
         seen_(points.size(), 0),
-        near_(points.size(), 0),
-        shared_(points.size(), 0),
         locked_(points.size(), 0) {
     Indices face_count(points.size(), 0);
     for (const uint32_t v : triangles) ++face_count[v];
@@ -48,6 +49,7 @@ class Collapser {
     CollapseSequence out;
     for (uint32_t v = 0; v < points_.size(); ++v)
       (neighbours_[v].empty() ? out.isolated : alive_).push_back(v);
+    out.collapses.reserve(alive_.size());
     while (alive_.size() > kBaseSize) {
       const size_t removed = run_level(out.collapses);
       if (removed < std::max<size_t>(1, alive_.size() / kMinProgress)) break;
@@ -58,6 +60,18 @@ class Collapser {
 
  private:
   using Triangle = std::array<uint32_t, 3>;
+
+  /// Returns a function that tells of a vertex whether it is seen for the first time under this
+  /// stamp.
+  auto marker(uint32_t stamp) {
+    return [this, stamp](uint32_t v) { return std::exchange(seen_[v], stamp) != stamp; };
+  }
+
+  void mark(std::span<const uint32_t> vertices) {
+    ++stamp_;
+    for (const uint32_t v : vertices) seen_[v] = stamp_;
+  }
+  bool marked(uint32_t v) const { return seen_[v] == stamp_; }
 
   void make_lists(const Indices& corners) {
     Indices count(points_.size(), 0);
@@ -70,7 +84,7 @@ class Collapser {
     triangles_.reserve(corners.size() / 3);
     for (size_t i = 0; i < corners.size(); i += 3)
       add_triangle({corners[i], corners[i + 1], corners[i + 2]});
-    for (uint32_t v = 0; v < points_.size(); ++v) neighbours_.sort_unique(v);
+    for (uint32_t v = 0; v < points_.size(); ++v) neighbours_.filter(v, marker(++stamp_));
   }
 
   void add_triangle(const Triangle& t) {
@@ -104,11 +118,15 @@ class Collapser {
       const auto v = static_cast<uint32_t>(key);
       const size_t valence = neighbours_[v].size();
       if (locked_[v] == level_ || valence == 0 || valence > kMaxValence) continue;
+      near_.assign(neighbours_[v].begin(), neighbours_[v].end());
+      sort_by_distance(v, near_);
       const int64_t target = choose_target(v);
       if (target < 0) continue;
       Collapse& made = out.emplace_back();
       made.vertex = v;
-      for (const uint32_t u : neighbours_[v]) {
+      around_ = near_;
+      sort_few(around_);
+      for (const uint32_t u : around_) {
         made.ring.push_back(u);
         locked_[u] = level_;
       }
@@ -118,81 +136,78 @@ class Collapser {
     }
     const size_t removed = out.size() - before;
     for (size_t i = before; i < out.size(); ++i)
-      seen_[out[i].vertex] = UINT32_MAX;  // gone for good
-    std::erase_if(alive_, [&](uint32_t v) { return seen_[v] == UINT32_MAX; });
+      locked_[out[i].vertex] = UINT32_MAX;  // gone for good
+    std::erase_if(alive_, [&](uint32_t v) { return locked_[v] == UINT32_MAX; });
     return removed;
   }
 
-  /// Leaves in shared_ how many triangles of v each of its neighbours is in, and in near_ the
-  /// stamp of v for all of them.
-  void mark_neighbours(uint32_t v) {
-    ++near_stamp_;
-    for (const uint32_t u : neighbours_[v]) {
-      near_[u] = near_stamp_;
-      shared_[u] = 0;
-    }
-    for (const uint32_t f : faces_[v]) {
-      for (const uint32_t w : triangles_[f]) ++shared_[w];
-    }
+  void sort_by_distance(uint32_t v, Indices& vertices) {
+    keys_.clear();
+    for (const uint32_t u : vertices) keys_.push_back(points_.distance2(v, u) << kIndexBits | u);
+    sort_few(keys_);
+    for (size_t i = 0; i < keys_.size(); ++i)
+      vertices[i] = static_cast<uint32_t>(keys_[i] & ((uint64_t{1} << kIndexBits) - 1));
   }
 
   /// Nearest neighbour that v can be merged into without changing the topology; -1 if there is
-  /// none.
+  /// none. Pre-condition: near_ holds the neighbours of v, nearest first.
   int64_t choose_target(uint32_t v) {
-    const std::span<const uint32_t> ring = neighbours_[v];
-    mark_neighbours(v);
-    const size_t face_count = faces_[v].size();
-    const uint32_t wanted = face_count == 0 ? 0 : face_count == ring.size() ? 2 : 1;
-    int64_t best = -1;
-    uint64_t best_distance = 0;
-    for (const uint32_t u : ring) {
-      if (ring.size() > 2) {  // fewer neighbours: a loose end, nothing to protect
-        const std::span<const uint32_t> others = neighbours_[u];
-        const auto common = std::count_if(others.begin(), others.end(),
-                                          [&](uint32_t w) { return near_[w] == near_stamp_; });
-        if (shared_[u] != wanted || static_cast<uint32_t>(common) != wanted) continue;
-      }
-      if (neighbours_[u].size() + ring.size() > kMaxMerged + 4) continue;
-      const uint64_t d = points_.distance2(v, u);
-      if (best < 0 || d < best_distance) {
-        best = u;
-        best_distance = d;
-      }
+    mark(near_);
+    const std::span<const uint32_t> faces = faces_[v];
+    const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_.size() ? 2 : 1;
+    for (const uint32_t u : near_) {
+      const std::span<const uint32_t> others = neighbours_[u];
+      if (others.size() + near_.size() > kMaxMerged + 4) continue;
+      if (near_.size() <= 2) return u;  // a loose end, nothing to protect
+      const auto common =
+          std::count_if(others.begin(), others.end(), [&](uint32_t w) { return marked(w); });
+      const auto shared = std::count_if(faces.begin(), faces.end(),
+                                        [&](uint32_t f) { return has(triangles_[f], u); });
+      if (common == wanted && shared == wanted) return u;
     }
-    return best;
+    return -1;
   }
 
-  /// Appends the unseen neighbours of `from` to far_, nearest to v first.
-  void append_next_ring(uint32_t v, std::span<const uint32_t> from) {
-    keys_.clear();
-    for (const uint32_t w : from) {
-      for (const uint32_t u : neighbours_[w]) {
-        if (seen_[u] == stamp_) continue;
-        seen_[u] = stamp_;
-        keys_.push_back(points_.distance2(v, u) << 25 | u);
-      }
-    }
-    std::sort(keys_.begin(), keys_.end());
-    for (const uint64_t key : keys_) far_.push_back(static_cast<uint32_t>(key & ((1u << 25) - 1)));
-  }
+  static bool has(const Triangle& t, uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
-  void find_far_neighbours(uint32_t v) {
-    ++stamp_;
-    seen_[v] = stamp_;
-    for (const uint32_t u : neighbours_[v]) seen_[u] = stamp_;
+  /// Leaves in far_ the neighbours of `from` that are not marked, and marks them.
+  void find_next_ring(std::span<const uint32_t> from) {
     far_.clear();
-    append_next_ring(v, neighbours_[v]);
-    if (far_.size() < max_extra_) append_next_ring(v, Indices(far_));
+    const auto is_new = marker(stamp_);
+    for (const uint32_t w : from) {
+      const std::span<const uint32_t> others = neighbours_[w];
+      size_t size = far_.size();
+      far_.resize(size + others.size());
+      for (const uint32_t u : others) {
+        far_[size] = u;
+        size += is_new(u) ? 1 : 0;
+      }
+      far_.resize(size);
+    }
+  }
+
+  /// Leaves in far_ the nearest of the second ring, then of the third. Pre-condition: near_ and its
+  /// marks as choose_target leaves them.
+  void find_far_neighbours(uint32_t v) {
+    seen_[v] = stamp_;
+    find_next_ring(near_);
+    sort_by_distance(v, far_);
+    if (far_.size() < max_extra_) {
+      const Indices second = far_;
+      find_next_ring(second);
+      sort_by_distance(v, far_);
+      far_.insert(far_.begin(), second.begin(), second.end());
+    }
     if (far_.size() > max_extra_) far_.resize(max_extra_);
   }
 
+  /// Pre-condition: near_ holds the neighbours of v.
   void collapse(uint32_t v, uint32_t target) {
-    // Of copies: the lists may move when others grow.
-    const std::span<const uint32_t> faces = faces_[v];
-    scratch_.assign(faces.begin(), faces.end());
-    for (const uint32_t f : scratch_) {
+    // Of a copy: lists may move when others grow.
+    around_.assign(faces_[v].begin(), faces_[v].end());
+    for (const uint32_t f : around_) {
       Triangle& t = triangles_[f];
-      if (t[0] == target || t[1] == target || t[2] == target) {
+      if (has(t, target)) {
         for (const uint32_t w : t) {
           if (w != v) faces_.erase(w, f);
         }
@@ -202,33 +217,32 @@ class Collapser {
       }
     }
     faces_.clear(v);
-    const std::span<const uint32_t> neighbours = neighbours_[v];
-    scratch_.assign(neighbours.begin(), neighbours.end());
-    for (const uint32_t w : scratch_) {
-      neighbours_.erase(w, v);
-      if (w == target) continue;
-      neighbours_.insert_sorted(w, target);
-      neighbours_.insert_sorted(target, w);
+    mark(neighbours_[target]);
+    for (const uint32_t w : near_) {
+      if (w == target || marked(w)) {
+        neighbours_.erase(w, v);
+      } else {
+        neighbours_.replace(w, v, target);
+        neighbours_.push_back(target, w);
+      }
     }
     neighbours_.clear(v);
   }
 
   const GridPoints& points_;
   uint32_t max_extra_;
-  ListPool neighbours_;  ///< sorted
+  ListPool neighbours_;
   ListPool faces_;
   std::vector<Triangle> triangles_;
   Indices alive_;
-  Indices seen_;    ///< stamp of the last search that met the vertex
-  Indices near_;    ///< near_stamp_ for the neighbours of the vertex last marked
-  Indices shared_;  ///< its triangles that they are in
-  Indices locked_;  ///< level at which the vertex must stay
-  Indices far_;     ///< what find_far_neighbours found
-  Indices scratch_;
-  std::vector<uint64_t> keys_;
-  uint32_t near_stamp_ = 0;
+  Indices seen_;  ///< stamp_ for what is marked
   uint32_t stamp_ = 0;
+  Indices locked_;  ///< level at which the vertex must stay
   uint32_t level_ = 0;
+  Indices near_;    ///< neighbours of the vertex at hand, nearest first
+  Indices far_;     ///< others near it
+  Indices around_;  ///< its neighbours by index, then its triangles
+  std::vector<uint64_t> keys_;
 };
 
 }  // namespace

@@ -6,35 +6,41 @@
 namespace reeb {
 
 // Near errors are likelier at first, by 1/16 from bucket to bucket.
-ErrorModel::ErrorModel() : seen_(4 * kUnit) {
+ErrorModel::ErrorModel() : seen_(4 * kUnit), scale_((uint64_t{1} << 32) / seen_) {
+  constexpr uint32_t kInnerBuckets = 8;  // of one step each
+  Weights weights;
   uint32_t weight = kUnit / 16;
-  for (uint32_t b = 0; b < sides_[0].weight.size(); ++b) {
+  for (uint32_t b = 0; b < kBuckets; ++b) {
     if (b >= kInnerBuckets) weight = std::max(weight - weight / 16, 1u);
-    sides_[0].weight[b] = weight;
+    weights[b] = weight;
   }
-  sides_[0].sum_up();
-  sides_[1] = sides_[0];
-  scale_ = (uint64_t{1} << 32) / seen_;
+  for (Side& side : sides_) side.sum_up(weights);
 }
 
 void ErrorModel::Side::add(uint32_t bucket, uint32_t share) {
-  weight[bucket] += share;
+  // Of fixed length, for vector units.
   const uint32_t block = bucket / kBlock;
-  for (uint32_t b = bucket + 1; b < (block + 1) * kBlock; ++b) inner[b] += share;
-  for (uint32_t k = block + 1; k < kBlocks; ++k) blocks[k] += share;
+  for (uint32_t i = 0; i < kBlock; ++i) inner[block][i + 1] += i >= bucket % kBlock ? share : 0;
+  for (uint32_t k = 0; k < kBlocks; ++k) blocks[k] += k > block ? share : 0;
 }
 
-void ErrorModel::Side::sum_up() {
+void ErrorModel::Side::sum_up(const Weights& weights) {
   uint32_t all = 0;
   for (uint32_t k = 0; k < kBlocks; ++k) {
     blocks[k] = all;
-    uint32_t sum = 0;
-    for (uint32_t b = k * kBlock; b < (k + 1) * kBlock; ++b) {
-      inner[b] = sum;
-      sum += weight[b];
-    }
-    all += sum;
+    inner[k][0] = 0;
+    for (uint32_t i = 0; i < kBlock; ++i) inner[k][i + 1] = inner[k][i] + weights[k * kBlock + i];
+    all += inner[k][kBlock];
   }
+}
+
+ErrorModel::Weights ErrorModel::Side::weights() const {
+  Weights out;
+  for (uint32_t b = 0; b < kBuckets; ++b) {
+    const uint32_t* const at = &inner[b / kBlock][b % kBlock];
+    out[b] = at[1] - at[0];
+  }
+  return out;
 }
 
 void ErrorModel::observe(int64_t error, uint32_t share, uint32_t memory) {
@@ -48,8 +54,9 @@ void ErrorModel::observe(int64_t error, uint32_t share, uint32_t memory) {
 void ErrorModel::halve() {
   seen_ /= 2;
   for (Side& side : sides_) {
-    for (uint32_t& w : side.weight) w -= w / 2;
-    side.sum_up();
+    Weights weights = side.weights();
+    for (uint32_t& w : weights) w -= w / 2;
+    side.sum_up(weights);
   }
 }
 
@@ -66,7 +73,7 @@ void GuessMixture::observe(uint32_t value, uint64_t all) {
     const Guess& g = guesses_[i];
     const auto own = static_cast<uint64_t>(high_[i] - low_[i]);
     const auto share = static_cast<uint32_t>(own * ErrorModel::kUnit / all);
-    models_[g.kind].observe(g.error(value, 128), share, memory_);
+    g.model->observe(g.error(value, 128), share, memory_);
   }
 }
 

@@ -29,29 +29,27 @@ class ErrorModel {
   void observe(int64_t error, uint32_t share, uint32_t memory);
 
  private:
-  static constexpr uint32_t kInnerBuckets = 8;  // of one step each
   static constexpr uint32_t kBlock = 16;
   static constexpr uint32_t kBlocks = 9;
+  static constexpr uint32_t kBuckets = kBlock * kBlocks;
+  using Weights = std::array<uint32_t, kBuckets>;
+
+  /// Errors of one sign, summed up at two levels, so that both looking up and adding are quick.
   struct Side {
-    std::array<uint32_t, kBlock * kBlocks> weight{};  // of each bucket
-    std::array<uint32_t, kBlock * kBlocks> inner{};   // buckets before it in its block
-    std::array<uint32_t, kBlocks> blocks{};           // all blocks before
+    std::array<uint32_t, kBlocks> blocks;                         // all blocks before
+    std::array<std::array<uint32_t, kBlock + 1>, kBlocks> inner;  // before each bucket of a block
     void add(uint32_t bucket, uint32_t share);
-    void sum_up();
+    void sum_up(const Weights& weights);
+    Weights weights() const;
   };
   struct Bucket {
     uint32_t index;
-    uint64_t start;
     uint32_t width_log2;
   };
-  /// Bucket of an error without its sign, < 2^41.
+  /// Bucket of an error without its sign, < 2^41; it begins at a multiple of its width.
   static Bucket bucket_of(uint64_t error) {
-    if (error < 16 * kInnerBuckets)
-      return {static_cast<uint32_t>(error >> 4), error & ~uint64_t{15}, 4};
-    const uint32_t width_log2 = static_cast<uint32_t>(std::bit_width(error)) - 3;
-    const uint64_t quarter = error >> width_log2;  // 4 .. 7
-    return {kInnerBuckets + (width_log2 - 5) * 4 + static_cast<uint32_t>(quarter - 4),
-            quarter << width_log2, width_log2};
+    const uint32_t width_log2 = static_cast<uint32_t>(std::bit_width(error | 64)) - 3;
+    return {4 * (width_log2 - 4) + static_cast<uint32_t>(error >> width_log2), width_log2};
   }
   void halve();
 
@@ -61,14 +59,17 @@ class ErrorModel {
 };
 
 inline int64_t ErrorModel::weight_to(int64_t error) const {
-  const bool negative = error < 0;
-  const auto size = static_cast<uint64_t>(negative ? -error : error);
+  const int64_t sign = error >> 63;  // -1 or 0: no branch, which nobody could foresee
+  const auto size = static_cast<uint64_t>((error ^ sign) - sign);
   const Bucket b = bucket_of(size);
-  const Side& side = sides_[negative];
-  const uint64_t part = ((size - b.start) * (uint64_t{side.weight[b.index]} << 8)) >> b.width_log2;
-  const uint64_t inner = side.blocks[b.index / kBlock] + side.inner[b.index];
-  const auto weight = static_cast<int64_t>(((inner << 8) + part) * scale_);
-  return negative ? -weight : weight;
+  const Side& side = sides_[sign & 1];
+  const uint32_t block = b.index / kBlock;
+  const uint32_t* const inner = &side.inner[block][b.index % kBlock];
+  const uint64_t beyond = size & ((uint64_t{1} << b.width_log2) - 1);
+  const uint64_t part = (beyond * (uint64_t{inner[1] - inner[0]} << 8)) >> b.width_log2;
+  const uint64_t before = side.blocks[block] + inner[0];
+  const auto weight = static_cast<int64_t>(((before << 8) + part) * scale_);
+  return (weight ^ sign) - sign;
 }
 
 /// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
@@ -81,7 +82,7 @@ class GuessMixture {
   /// `place` in 1/256; one step of the error model is 1/8 of `scale`, which is in 1/256 too, 1 ..
   /// 2^24.
   void add(uint32_t kind, int64_t place, uint32_t scale) {
-    guesses_.push_back({kind, place, (uint64_t{1} << 23) / scale});
+    guesses_.push_back({&models_[kind], place, (int64_t{1} << 23) / scale});
   }
 
   /// Codes `value` in 0 .. count-1 and learns it. The guesses see value v as the interval [v, v+1).
@@ -120,12 +121,12 @@ class GuessMixture {
   }
 
   struct Guess {
-    uint32_t kind;
+    ErrorModel* model;
     int64_t place;
-    uint64_t gain;  // steps of the error model per unit of distance
+    int64_t gain;  // steps of the error model per unit of distance
     /// Of `value` plus `part` / 256.
     int64_t error(uint32_t value, int64_t part = 0) const {
-      return ((static_cast<int64_t>(value) << 8) + part - place) * static_cast<int64_t>(gain) >> 16;
+      return ((static_cast<int64_t>(value) << 8) + part - place) * gain >> 16;
     }
   };
 
@@ -135,7 +136,7 @@ class GuessMixture {
   int64_t weigh(uint32_t value, std::vector<int64_t>& by_guess) const {
     int64_t sum = kFloor * value;
     for (size_t i = 0; i < guesses_.size(); ++i) {
-      by_guess[i] = models_[guesses_[i].kind].weight_to(guesses_[i].error(value));
+      by_guess[i] = guesses_[i].model->weight_to(guesses_[i].error(value));
       sum += by_guess[i];
     }
     return sum;

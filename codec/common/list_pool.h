@@ -8,7 +8,8 @@
 
 namespace reeb {
 
-/// A list per vertex. A list that outgrows its place moves to the end of the block, twice as large.
+/// A list per vertex, in no order. A list that outgrows its place moves to the end of the block,
+/// twice as large.
 class ListPool {
  public:
   /// Empty lists with room for capacity[i] elements.
@@ -26,25 +27,30 @@ class ListPool {
     return {items_.data() + lists_[list].begin, lists_[list].size};
   }
 
-  void push_back(uint32_t list, uint32_t x) { insert(list, lists_[list].size, x); }
-
-  /// Pre-condition of these: the list is sorted. An element that is there is not inserted again.
-  void insert_sorted(uint32_t list, uint32_t x) {
-    const std::span<uint32_t> items = mutable_items(list);
-    const auto at = std::lower_bound(items.begin(), items.end(), x);
-    if (at == items.end() || *at != x) insert(list, static_cast<uint32_t>(at - items.begin()), x);
-  }
-  void sort_unique(uint32_t list) {
-    const std::span<uint32_t> items = mutable_items(list);
-    std::sort(items.begin(), items.end());
-    const auto end = std::unique(items.begin(), items.end());
-    lists_[list].size = static_cast<uint32_t>(end - items.begin());
+  void push_back(uint32_t list, uint32_t x) {
+    List& l = lists_[list];
+    if (l.size == l.capacity) move(l);
+    items_[l.begin + l.size++] = x;
   }
 
+  /// Pre-condition of both: x is in the list, once.
   void erase(uint32_t list, uint32_t x) {
-    const std::span<uint32_t> items = mutable_items(list);
-    const auto end = std::remove(items.begin(), items.end(), x);
-    lists_[list].size = static_cast<uint32_t>(end - items.begin());
+    uint32_t* const at = find(list, x);
+    *at = items_[lists_[list].begin + --lists_[list].size];
+  }
+  void replace(uint32_t list, uint32_t x, uint32_t by) { *find(list, x) = by; }
+
+  /// Keeps those for which `keep`, called once for each in turn, is true.
+  template <class Keep>
+  void filter(uint32_t list, Keep keep) {
+    uint32_t* const items = items_.data() + lists_[list].begin;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < lists_[list].size; ++i) {
+      const uint32_t x = items[i];
+      items[kept] = x;
+      kept += keep(x) ? 1 : 0;
+    }
+    lists_[list].size = kept;
   }
   void clear(uint32_t list) { lists_[list].size = 0; }
 
@@ -53,17 +59,10 @@ class ListPool {
     uint32_t begin, size, capacity;
   };
 
-  std::span<uint32_t> mutable_items(uint32_t list) {
-    return {items_.data() + lists_[list].begin, lists_[list].size};
-  }
-
-  void insert(uint32_t list, uint32_t at, uint32_t x) {
-    List& l = lists_[list];
-    if (l.size == l.capacity) move(l);
-    uint32_t* const items = items_.data() + l.begin;
-    std::copy_backward(items + at, items + l.size, items + l.size + 1);
-    items[at] = x;
-    ++l.size;
+  uint32_t* find(uint32_t list, uint32_t x) {
+    uint32_t* at = items_.data() + lists_[list].begin;
+    while (*at != x) ++at;
+    return at;
   }
 
   void move(List& l) {

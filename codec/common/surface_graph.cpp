@@ -59,16 +59,14 @@ struct Gathered {
 class SurfaceGraphBuilder {
  public:
   SurfaceGraphBuilder(const GridPoints& points, std::span<const uint32_t> triangles)
-      : points_(points), boundary_(points.size(), false) {
-    CollapseSequence sequence = collapse_mesh(points, triangles, kMaxExtra);
-    append_by_strides(points, sequence.base, order_);
-    gathered_.resize(points.size());
-    for (size_t i = sequence.collapses.size(); i-- > 0;) {
-      const Collapse& c = sequence.collapses[i];
-      order_.push_back(c.vertex);
-      gathered_[c.vertex] = {c.ring, c.extra};
-    }
-    append_by_strides(points, sequence.isolated, order_);
+      : points_(points),
+        sequence_(collapse_mesh(points, triangles, kMaxExtra)),
+        boundary_(points.size(), false) {
+    order_.reserve(points.size());
+    append_by_strides(points, sequence_.base, order_);
+    const auto& collapses = sequence_.collapses;
+    for (size_t i = collapses.size(); i-- > 0;) order_.push_back(collapses[i].vertex);
+    append_by_strides(points, sequence_.isolated, order_);
     rank_.resize(points.size());
     for (uint32_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = r;
     mark_boundary(triangles);
@@ -79,8 +77,9 @@ class SurfaceGraphBuilder {
     SurfaceGraph out;
     out.graph.rows.resize(points_.size());
     for (uint32_t r = 0; r < order_.size(); ++r) {
-      complete(order_[r], nearest);
-      out.graph.rows[r] = make_row(r);
+      Gathered gathered = gather(r);
+      complete(order_[r], nearest, gathered);
+      fill_row(r, gathered, out.graph.rows[r]);
     }
     out.order = std::move(order_);
     weigh_rows(points_, out);
@@ -114,8 +113,16 @@ class SurfaceGraphBuilder {
     }
   }
 
-  void complete(uint32_t v, EarlierNeighbours& nearest) {
-    Gathered& g = gathered_[v];
+  /// What the collapses tell.
+  Gathered gather(uint32_t rank) const {
+    const size_t place = rank - sequence_.base.size();  // wraps around for the base
+    const size_t count = sequence_.collapses.size();
+    if (place >= count) return {};
+    const Collapse& c = sequence_.collapses[count - 1 - place];
+    return {c.ring, c.extra};
+  }
+
+  void complete(uint32_t v, EarlierNeighbours& nearest, Gathered& g) const {
     const bool loose = g.ring.empty();
     if (!loose && !boundary_[v] && g.size() >= kEnough) return;
     uint32_t coincident = 0;
@@ -132,23 +139,20 @@ class SurfaceGraphBuilder {
     }
   }
 
-  PredictionGraph::Row make_row(uint32_t rank) const {
-    const Gathered& g = gathered_[order_[rank]];
-    PredictionGraph::Row row;
+  void fill_row(uint32_t rank, const Gathered& g, PredictionGraph::Row& row) const {
     row.neighbour.fill(rank);
     row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
     const size_t wanted = uses(coding_tool::kExtraNeighbours) ? g.size() : g.ring.size();
     row.count = static_cast<uint8_t>(std::min<size_t>(wanted, kMaxNeighbours));
     for (uint32_t i = 0; i < row.count; ++i)
       row.neighbour[i] = rank_[i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()]];
-    return row;
   }
 
   const GridPoints& points_;
+  CollapseSequence sequence_;
   std::vector<bool> boundary_;
   std::vector<uint32_t> order_;
   std::vector<uint32_t> rank_;
-  std::vector<Gathered> gathered_;
 };
 
 /// The nearer a neighbour of the ring, the more it is expected to count, as 1 / distance; the

@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kBytesPerRow = 2600;
 constexpr uint64_t kFastBytesPerRow = 800;  ///< whose weights are not learned
 /// Of a reference mesh while it is decoded, without what Draco takes.
-constexpr uint64_t kMeshBytesPerVertex = 800, kMeshBytesPerFace = 80;
+constexpr uint64_t kMeshBytesPerVertex = 720, kMeshBytesPerFace = 80;
 
 uint64_t bytes_per_row(Profile profile) {
   return profile == Profile::kFast ? kFastBytesPerRow : kBytesPerRow;
