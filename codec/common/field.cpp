@@ -49,11 +49,6 @@ FieldOptions basis_field_options() {
   return options;
 }
 
-std::vector<float> fixed_weights(const SurfaceGraph& surface, const GridPoints& points) {
-  return reference_weights(surface.graph, surface_field_options(Profile::kFast).weights, points,
-                           surface.order);
-}
-
 Field::Plan::Plan(const PredictionGraph& graph, bool predict) : uses(find_uses(graph)) {
   rows.reserve(graph.size());
   neighbours.reserve(graph.size());

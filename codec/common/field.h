@@ -28,10 +28,6 @@ struct FieldOptions {
 FieldOptions surface_field_options(Profile profile, bool loose = false);
 FieldOptions basis_field_options();
 
-/// Weights of the coefficients in the fast profile, which come from the reference alone:
-/// kMaxNeighbours a row.
-std::vector<float> fixed_weights(const SurfaceGraph& surface, const GridPoints& points);
-
 /// Values are in units of the group's quantization step q.
 class Field {
  public:

@@ -111,6 +111,20 @@ struct LaneGuess {
   uint32_t cls[kRansLanes];
 };
 
+/// What the weights of a lane field's rows come from: the reference, and the values of blocks that
+/// are decoded, [row][lane].
+struct LaneWeightTask {
+  const PredictionGraph::Row* rows = nullptr;
+  const float* points = nullptr;        ///< [row][kPointStride]: x, y, z of the reference
+  const float* values = nullptr;        ///< of the last block; null where there is none
+  const float* first_values = nullptr;  ///< of the first one; null where that is the last
+};
+inline constexpr uint32_t kPointStride = 4;
+inline constexpr uint32_t kWeightRows = 16;
+
+/// Weights of kWeightRows rows, the l-th's to out[l], as spec/fast.md, section 4, has it.
+using LearnLanesKernel = void (*)(const LaneWeightTask&, const uint32_t* rows, float* const* out);
+
 using GuessLanesKernel = LaneGuess (*)(const LaneBlock&, uint32_t row);
 using NoteLanesKernel = void (*)(LaneBlock&, uint32_t row, const LaneGuess&, const int32_t* n);
 using DecodeLanesKernel = void (*)(LaneBlock&, RansDecoder&, uint32_t lanes);
@@ -125,6 +139,7 @@ struct Kernels {
   GuessLanesKernel guess_lanes;
   NoteLanesKernel note_lanes;
   DecodeLanesKernel decode_lanes;
+  LearnLanesKernel learn_lanes;
 };
 
 /// The quickest kernels this processor has.

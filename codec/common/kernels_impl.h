@@ -9,6 +9,7 @@
 
 #include "codec/common/kernels.h"
 #include "codec/common/lane_kernels_impl.h"
+#include "codec/common/lane_weight_kernels_impl.h"
 #include "codec/common/weight_kernels_impl.h"
 
 namespace reeb::REEB_KERNEL_NAMESPACE {
@@ -85,7 +86,8 @@ void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels = {observe_points, load_equations, store_equations, fold,        solve,
-                          combine,        guess_lanes,    note_lanes,      decode_lanes};
+const Kernels kKernels = {observe_points, load_equations, store_equations, fold,
+                          solve,          combine,        guess_lanes,     note_lanes,
+                          decode_lanes,   learn_lanes};
 
 }  // namespace reeb::REEB_KERNEL_NAMESPACE

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "codec/common/largest_magnitude.h"
 
 namespace reeb {
+
+namespace {
+
+constexpr uint32_t kLearnedBlocks = 2;  ///< more gain little
+
+}  // namespace
 
 LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weights,
                      const LaneFieldOptions& options)
@@ -33,7 +40,13 @@ LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weight
   block_.whole = options.whole;
 }
 
+LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start)
+    : LaneField(graph, start.weights, {}) {
+  start_ = &start;
+}
+
 void LaneField::begin_block() {
+  if (start_ != nullptr && blocks_ > 0 && blocks_ <= kLearnedBlocks) learn();
   std::fill(values_.begin(), values_.end(), 0.0f);
   std::fill(magnitudes_.begin(), magnitudes_.end(), uint16_t{0});
   std::fill(std::begin(block_.running), std::end(block_.running), 0u);
@@ -48,11 +61,30 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
     history_[r] = block_.history == nullptr ? 2 * sum : (history_[r] + 3 * sum) / 4;
   }
   block_.history = history_.data();
+  ++blocks_;
   std::array<float*, kRansLanes> plane;
   for (uint32_t l = 0; l < lanes; ++l) plane[l] = planes.emplace_back(rows()).data();
   for (uint32_t r = 0; r < rows(); ++r) {
     for (uint32_t l = 0; l < lanes; ++l) plane[l][r] = values_[size_t{r} * kRansLanes + l];
   }
+}
+
+// The more is known, the worse a row must have been predicted to be worth the time.
+void LaneField::learn() {
+  constexpr uint32_t kLeastHistory = 4;
+  std::vector<uint32_t> badly;
+  for (uint32_t r = 0; r < rows(); ++r) {
+    if (history_[r] >= kLeastHistory * blocks_) badly.push_back(r);
+  }
+  LaneWeightTask task = {graph_.rows.data(), start_->points.data(), values_.data()};
+  if (blocks_ == 1) {
+    weights_ = start_->weights;
+    block_.weights = weights_.data();
+  } else {
+    task.first_values = first_values_.data();
+  }
+  learn_weights(task, badly, weights_);
+  if (blocks_ == 1) first_values_ = values_;
 }
 
 bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, LaneField& field,

@@ -1,6 +1,6 @@
-// Coding of a field in the fast profile: sixteen components at a time, row after row, weights fixed
-// before the first. A row's components do not depend on each other, so they are predicted in one
-// vector and decoded by as many interleaved coders. Encoder and decoder run this same code.
+// Coding of a field in the fast profile: sixteen components at a time, row after row, with weights
+// that are fixed within them. A row's components do not depend on each other, so they are predicted
+// in one vector and decoded by as many interleaved coders. Encoder and decoder run this same code.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "codec/common/kernels.h"
+#include "codec/common/lane_weights.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/stop.h"
 #include "entropy/rans.h"
@@ -35,6 +36,11 @@ class LaneField {
   /// field.
   LaneField(const PredictionGraph& graph, std::span<const float> weights,
             const LaneFieldOptions& options);
+  /// A field of coefficients, which learns from its first blocks. `start` must outlive it.
+  LaneField(const PredictionGraph& graph, const LaneStart& start);
+
+  LaneField(LaneField&&) = default;
+  LaneField(const LaneField&) = delete;  // the block points into its field
 
   /// Starts the next block.
   void begin_block();
@@ -56,14 +62,21 @@ class LaneField {
   uint32_t rows() const { return graph_.size(); }
 
  private:
+  /// Finds new weights for the rows that were predicted badly.
+  void learn();
+
   const PredictionGraph& graph_;
+  const LaneStart* start_ = nullptr;  ///< where weights are learned
   Kernels kernels_ = fastest_kernels();
   std::vector<uint32_t> neighbours_;
   std::vector<uint8_t> counts_, rings_;
   std::vector<float> steps_;
+  std::vector<float> weights_;  ///< once any are learned
   std::vector<float> values_;
+  std::vector<float> first_values_;  ///< of the first block, once learned from
   std::vector<uint16_t> magnitudes_;
   std::vector<uint32_t> history_;
+  uint32_t blocks_ = 0;  ///< that are complete
   LaneBlock block_;
 };
 

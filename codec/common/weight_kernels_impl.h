@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <type_traits>
 
 #include "codec/common/kernels.h"
 #include "codec/common/vector_load.h"
@@ -148,23 +149,26 @@ void observe_points(WeightBatch& batch, const Lanes (*y)[3], const Lanes& invers
 }
 
 /// A = L D L^T in place: L below the diagonal, 1/D in `inverse`. Where rounding has eaten a pivot
-/// its 1/D is 0, which takes the neighbour out of the system.
-inline void factorise(uint32_t n, Lanes* a, Lanes* inverse) {
-  const Lanes zero{};
-  const Lanes one = zero + 1.0;
-  Lanes scaled[kMaxNeighbours];
-  Lanes diagonal[kMaxNeighbours];
+/// its 1/D is 0, which takes the neighbour out of the system. `V`: rows, in binary64 or binary32.
+template <class V>
+inline void factorise(uint32_t n, V* a, V* inverse) {
+  using Real = std::remove_reference_t<decltype(a[0][0])>;
+  constexpr auto kLeastPivot = static_cast<Real>(sizeof(Real) == 8 ? 0x1p-42 : 0x1p-20);
+  const V zero{};
+  const V one = zero + 1;
+  V scaled[kMaxNeighbours];
+  V diagonal[kMaxNeighbours];
   for (uint32_t j = 0; j < n; ++j) {
-    Lanes d = a[packed(j, j)];
-    const Lanes floor = d * 0x1p-42;
+    V d = a[packed(j, j)];
+    const V floor = d * kLeastPivot;
     for (uint32_t k = 0; k < j; ++k) {
       scaled[k] = a[packed(j, k)] * diagonal[k];
       d -= a[packed(j, k)] * scaled[k];
     }
     diagonal[j] = d > floor ? d : zero;
-    inverse[j] = d > floor ? 1.0 / (d > floor ? d : one) : zero;
+    inverse[j] = d > floor ? one / (d > floor ? d : one) : zero;
     for (uint32_t i = j + 1; i < n; ++i) {
-      Lanes t = a[packed(i, j)];
+      V t = a[packed(i, j)];
       for (uint32_t k = 0; k < j; ++k) t -= a[packed(i, k)] * scaled[k];
       a[packed(i, j)] = t * inverse[j];
     }
@@ -172,7 +176,8 @@ inline void factorise(uint32_t n, Lanes* a, Lanes* inverse) {
 }
 
 /// Solves L D L^T x = x in place.
-inline void substitute(uint32_t n, const Lanes* a, const Lanes* inverse, Lanes* x) {
+template <class V>
+inline void substitute(uint32_t n, const V* a, const V* inverse, V* x) {
   for (uint32_t i = 1; i < n; ++i) {
     for (uint32_t k = 0; k < i; ++k) x[i] -= a[packed(i, k)] * x[k];
   }
@@ -183,16 +188,17 @@ inline void substitute(uint32_t n, const Lanes* a, const Lanes* inverse, Lanes* 
 }
 
 /// w += b (1 - sum w) / sum b: the multiplier of the constraint that the weights sum to one.
-inline void constrain(uint32_t n, Lanes* w, const Lanes* b) {
-  Lanes sum_w{};
-  Lanes sum_b{};
+template <class V>
+inline void constrain(uint32_t n, V* w, const V* b) {
+  V sum_w{};
+  V sum_b{};
   for (uint32_t i = 0; i < n; ++i) {
     sum_w += w[i];
     sum_b += b[i];
   }
-  const Lanes zero{};
-  const Lanes one = zero + 1.0;
-  const Lanes factor = sum_b > zero ? (1.0 - sum_w) / (sum_b > zero ? sum_b : one) : zero;
+  const V zero{};
+  const V one = zero + 1;
+  const V factor = sum_b > zero ? (one - sum_w) / (sum_b > zero ? sum_b : one) : zero;
   for (uint32_t i = 0; i < n; ++i) w[i] += b[i] * factor;
 }
 

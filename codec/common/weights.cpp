@@ -190,12 +190,4 @@ void WeightEstimator::solve(const std::vector<uint32_t>& rows, uint32_t first) {
   kernels_.solve(batch, options_.sum_to_one, out);
 }
 
-std::vector<float> reference_weights(const PredictionGraph& graph, const WeightOptions& options,
-                                     const GridPoints& points, const std::vector<uint32_t>& order) {
-  std::vector<float> weights(size_t{graph.size()} * kMaxNeighbours, 0.0f);
-  solve_reference(graph, options, points, order, fastest_kernels(), weights,
-                  [](const WeightBatch&, const uint32_t*) {});
-  return weights;
-}
-
 }  // namespace reeb

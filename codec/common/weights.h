@@ -80,10 +80,6 @@ class WeightEstimator {
   std::vector<float> weights_;
 };
 
-/// The weights that a WeightEstimator has after `observe_reference`: kMaxNeighbours a row.
-std::vector<float> reference_weights(const PredictionGraph& graph, const WeightOptions& options,
-                                     const GridPoints& points, const std::vector<uint32_t>& order);
-
 /// True where the weights are re-solved after component k: every one at first, then ever fewer.
 constexpr bool resolve_after(uint32_t k) {
   if (k < 4) return true;

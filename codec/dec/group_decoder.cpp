@@ -147,9 +147,9 @@ Status coefficient_status(bool whole, const StopToken& stop) {
 /// The planes of the coefficient section, fast profile.
 Status decode_fixed_planes(const GroupChunk& chunk, const DecodedSurface& surface,
                            const StopToken& stop, std::vector<std::vector<float>>& planes) {
-  std::vector<float> own;  // of a mesh that is not plain
-  if (surface.weights.empty()) own = fixed_weights(surface.surface, GridPoints(surface.grid));
-  LaneField field(surface.surface.graph, own.empty() ? surface.weights : own, {});
+  LaneStart own;  // of a mesh that is not plain
+  if (surface.lanes.empty()) own = lane_start(surface.surface, GridPoints(surface.grid));
+  LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own);
   return coefficient_status(
       decode_lane_field(chunk.coefficients, chunk.header.component_count, field, planes, stop),
       stop);
@@ -173,7 +173,7 @@ Status decode_planes(const GroupChunk& chunk, const DecodedSurface& surface, uns
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop) {
   const GroupHeader& header = chunk.header;
-  if (header.profile != Profile::kFast && !surface.weights.empty())
+  if (header.profile != Profile::kFast && !surface.lanes.empty())
     return Status::corrupt("the group's profile does not fit its reference mesh");
   if (header.profile == Profile::kLossless) {
     state = {};

@@ -8,6 +8,7 @@
 #include "bitstream/container.h"
 #include "bitstream/status.h"
 #include "codec/common/group_state.h"
+#include "codec/common/lane_weights.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/stop.h"
 #include "codec/common/synthesis.h"
@@ -18,7 +19,7 @@ namespace reeb {
 struct DecodedSurface {
   std::vector<int32_t> grid;  ///< V x 3
   SurfaceGraph surface;
-  std::vector<float> weights;    ///< of a plain mesh: kMaxNeighbours a row; else empty
+  LaneStart lanes;               ///< of a plain mesh; else empty
   std::vector<uint32_t> output;  ///< row of the surface graph -> vertex in output order
   float origin[3] = {0, 0, 0};   ///< of the grid, world units
   float grid_step = 0;           ///< world units

@@ -55,8 +55,9 @@ uint64_t state_memory(uint64_t vertices) {
 
 uint64_t kept_memory(const DecodedSurface& s) {
   const PredictionGraph& graph = s.surface.graph;
-  return sizeof(DecodedSurface) + bytes_of(s.grid) + bytes_of(s.weights) + bytes_of(s.output) +
-         bytes_of(s.surface.order) + bytes_of(graph.rows) + bytes_of(graph.step_level);
+  return sizeof(DecodedSurface) + bytes_of(s.grid) + bytes_of(s.lanes.points) +
+         bytes_of(s.lanes.weights) + bytes_of(s.output) + bytes_of(s.surface.order) +
+         bytes_of(graph.rows) + bytes_of(graph.step_level);
 }
 
 uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {

@@ -4,7 +4,6 @@
 #include <system_error>
 #include <utility>
 
-#include "codec/common/field.h"
 #include "codec/common/parallel.h"
 #include "codec/dec/group_memory.h"
 #include "codec/dec/guard.h"
@@ -19,7 +18,7 @@ DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header, b
   out.grid = std::move(mesh.grid);
   if (plain) {
     out.surface = std::move(mesh.surface);
-    out.weights = fixed_weights(out.surface, GridPoints(out.grid));
+    out.lanes = lane_start(out.surface, GridPoints(out.grid));
   } else {
     out.surface = build_surface_graph(GridPoints(out.grid), mesh.triangles);
   }

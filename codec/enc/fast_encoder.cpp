@@ -10,14 +10,13 @@ namespace {
 
 /// Codes a field twice, the second time with the costs that the first leads to: `code(encoder)`
 /// codes its blocks and returns how many components, the first ones, are sent. Writes them to
-/// `section` and returns them as decoded.
-template <class Code>
-LaneField::Planes code_twice(const PredictionGraph& graph, std::span<const float> weights,
-                             double lambda, double mass_exponent, Code code,
-                             std::vector<uint8_t>& section) {
+/// `section` and returns them as decoded. `start()`: the field before its first block.
+template <class Start, class Code>
+LaneField::Planes code_twice(const PredictionGraph& graph, Start start, double lambda,
+                             double mass_exponent, Code code, std::vector<uint8_t>& section) {
   SymbolCosts costs = expected_costs();
   for (bool last = false;; last = true) {
-    LaneField field(graph, weights, {});
+    LaneField field = start();
     LaneFieldEncoder encoder(field, graph, lambda, mass_exponent, costs);
     const uint32_t sent = code(encoder);
     const RansEncoder coded = encoder.section(sent);
@@ -57,8 +56,10 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
     }
     return held_count_ ? most : stop.best();
   };
-  Planes planes = code_twice(surface.surface.graph, surface.weights, kCoefficientLambda,
-                             kMassExponent, code, out.coefficients);
+  const PredictionGraph& graph = surface.surface.graph;
+  Planes planes = code_twice(
+      graph, [&] { return LaneField(graph, surface.lanes); }, kCoefficientLambda, kMassExponent,
+      code, out.coefficients);
   out.component_count = static_cast<uint32_t>(planes.size());
   return planes;
 }
@@ -73,8 +74,10 @@ GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float
     }
     return count;
   };
-  return code_twice(temporal_.graph, prior_weights(temporal_.graph), kBasisLambda, 0, code,
-                    out.basis);
+  const std::vector<float> weights = prior_weights(temporal_.graph);
+  return code_twice(
+      temporal_.graph, [&] { return LaneField(temporal_.graph, weights, {}); }, kBasisLambda, 0,
+      code, out.basis);
 }
 
 }  // namespace reeb

@@ -1,5 +1,5 @@
 // Group encoder of the fast profile: the transform of the main profile, its two fields coded
-// sixteen components at a time with fixed weights.
+// sixteen components at a time.
 #pragma once
 
 #include <cstdint>

@@ -44,9 +44,9 @@ RateModel::RateModel(const SurfaceContext& surface, KarhunenLoeve& transform, ui
 
 void RateModel::sort_samples(const SurfaceContext& surface) {
   const PredictionGraph& graph = surface.surface.graph;
-  std::vector<float> own;  // of a surface that has none, since its field learns them
-  if (surface.weights.empty()) own = fixed_weights(surface.surface, surface.points());
-  const std::vector<float>& weights = own.empty() ? surface.weights : own;
+  LaneStart own;  // of a surface that has none
+  if (surface.lanes.empty()) own = lane_start(surface.surface, surface.points());
+  const std::vector<float>& weights = own.empty() ? surface.lanes.weights : own.weights;
   const Eigen::VectorXd energy = transform_.row_energies();
   const double mean = energy.mean();
   const uint32_t octaves = octave_of(graph.size()) + 1;

@@ -7,6 +7,7 @@
 
 #include "bitstream/headers.h"
 #include "bitstream/status.h"
+#include "codec/common/lane_weights.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/reference_mesh.h"
 #include "codec/common/sequence.h"
@@ -20,7 +21,7 @@ struct SurfaceContext {
   ReferenceMesh mesh;              ///< as decoded
   std::vector<uint32_t> input_of;  ///< vertex of `mesh` (coding numbering) -> vertex of the input
   SurfaceGraph surface;            ///< of the decoded mesh
-  std::vector<float> weights;      ///< fast profile: kMaxNeighbours a row
+  LaneStart lanes;                 ///< fast profile
   std::vector<uint32_t> input;     ///< row of the surface graph -> vertex of the input
   std::vector<uint32_t> row_of;    ///< vertex of the input -> row
 

@@ -30,8 +30,8 @@ BuiltMesh finish_mesh(Bytes bytes) {
   require(decode_reference(bytes, {}, mesh));
   if (mesh.surface.graph.size() == 0)
     mesh.surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
-  std::vector<float> weights = fixed_weights(mesh.surface, GridPoints(mesh.grid));
-  return {std::move(bytes), std::move(mesh.grid), std::move(mesh.surface), std::move(weights)};
+  LaneStart lanes = lane_start(mesh.surface, GridPoints(mesh.grid));
+  return {std::move(bytes), std::move(mesh.grid), std::move(mesh.surface), std::move(lanes)};
 }
 
 void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
@@ -46,9 +46,7 @@ void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
   }
 }
 
-Bytes code_lanes(const PredictionGraph& graph, std::span<const float> weights, uint32_t count,
-                 const Residuals& residuals) {
-  LaneField field(graph, weights, {});
+Bytes code_lanes(LaneField field, uint32_t count, const Residuals& residuals) {
   RansEncoder coder(std::min(kRansLanes, count));
   LaneField::Planes planes;
   for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {
@@ -71,7 +69,7 @@ Bytes code_lanes(const PredictionGraph& graph, std::span<const float> weights, u
 
 Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
   if (group.header.profile == Profile::kFast) {
-    return code_lanes(mesh.surface.graph, mesh.weights, group.header.component_count,
+    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes), group.header.component_count,
                       group.coefficients);
   }
   Field field(mesh.surface.graph, surface_field_options(group.header.profile, group.header.loose()),
@@ -85,8 +83,9 @@ Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
 Bytes code_basis(const BuiltGroup& group) {
   const TemporalGraph temporal = build_temporal_graph(group.header.frame_count);
   if (group.header.profile == Profile::kFast) {
-    return code_lanes(temporal.graph, prior_weights(temporal.graph),
-                      group.header.component_count + 1, group.basis);
+    const std::vector<float> weights = prior_weights(temporal.graph);
+    return code_lanes(LaneField(temporal.graph, weights, {}), group.header.component_count + 1,
+                      group.basis);
   }
   Field field(temporal.graph, basis_field_options(), 1);
   BinaryEncoder coder;

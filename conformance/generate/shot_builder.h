@@ -9,6 +9,7 @@
 #include "bitstream/container.h"
 #include "codec/common/corrections.h"
 #include "codec/common/field.h"
+#include "codec/common/lane_weights.h"
 #include "codec/common/motion_model.h"
 #include "codec/common/prediction_graph.h"
 #include "codec/common/sequence.h"
@@ -25,7 +26,7 @@ struct BuiltMesh {
   Bytes bytes;
   std::vector<int32_t> grid;  ///< [coding vertex][xyz]
   SurfaceGraph surface;
-  std::vector<float> weights;  ///< for the fast profile
+  LaneStart lanes;  ///< for the fast profile
 
   uint32_t rows() const { return surface.graph.size(); }
 };

@@ -1,11 +1,10 @@
-"""fast.md sections 2 to 4: the order of contraction, lane fields, plain meshes."""
+"""fast.md sections 2 to 5: the order of contraction, lane fields, their weights, plain meshes."""
 import math
 
 from .arithmetic import f32, floor_log2, product32, sum32
 from .errors import require
 from .lanes import LaneSection
 from .surface import STEPS, Distances, Row, make_row, set_step_levels
-from .weights import COEFFICIENT_WEIGHTS, RowWeights
 
 LIST = 16
 AROUND = 12
@@ -109,16 +108,104 @@ class Order:
 
 
 def position_weights(count, ring):
-    """Section 4."""
+    """Section 5."""
     beyond = count - ring
     a = 0.125 if ring > 2 and beyond >= 4 else 0.0
     return [f32((1 + a) / ring)] * ring + [f32(-a / beyond) for _ in range(beyond)]
 
 
-class LaneField:
-    """Section 3. weights: of every row; steps: of every row, or None where values are whole."""
+class LaneWeights:
+    """Section 4: the weights of a row, all in binary32."""
 
-    def __init__(self, data, rows, planes, weights, steps):
+    def __init__(self, rows, index, points):
+        """points: grid position of every row."""
+        row = self.row = rows[index]
+        self.index = index
+        n = self.n = len(row.neighbours)
+        y = [[float(points[k][a] - points[index][a]) for a in range(3)] for k in row.neighbours]
+        self.M = [[dot32(y[i], y[j]) for j in range(i + 1)] for i in range(n)]
+        spread = 0.0
+        for i in range(n):
+            spread = sum32(spread, self.M[i][i])
+        share = f32(1 / sum32(0.25, product32(2.0 ** -11, f32(spread / max(1, n)))))
+        self.M = [[product32(x, share) for x in entries] for entries in self.M]
+
+    def observe(self, planes):
+        """The differences of eight planes."""
+        own = [plane[self.index] for plane in planes]
+        z = [[sum32(plane[k], -x) for plane, x in zip(planes, own)] for k in self.row.neighbours]
+        for i in range(self.n):
+            for j in range(i + 1):
+                self.M[i][j] = sum32(self.M[i][j], product32(0.125, dot32(z[i], z[j])))
+
+    def solve(self):
+        A = [list(entries) for entries in self.M]
+        w = []
+        for i in range(self.n):
+            sure = product32(self.row.precision[i], 0.25 if i < self.row.ring else 0.625)
+            A[i][i] = sum32(A[i][i], sure)
+            w.append(product32(self.row.prior[i], sure))
+        b = [1.0] * self.n
+        inverse = factorise32(A)
+        substitute32(A, inverse, w)
+        substitute32(A, inverse, b)
+        constrain32(w, b)
+        return w
+
+
+def dot32(a, b):
+    out = product32(a[0], b[0])
+    for x, y in zip(a[1:], b[1:]):
+        out = sum32(out, product32(x, y))
+    return out
+
+
+def factorise32(A):
+    n = len(A)
+    diagonal, inverse, c = [0.0] * n, [0.0] * n, [0.0] * n
+    for j in range(n):
+        d = A[j][j]
+        least = product32(d, 2.0 ** -20)
+        for k in range(j):
+            c[k] = product32(A[j][k], diagonal[k])
+            d = sum32(d, -product32(A[j][k], c[k]))
+        if d > least:
+            diagonal[j] = d
+            inverse[j] = f32(1 / d)
+        for i in range(j + 1, n):
+            x = A[i][j]
+            for k in range(j):
+                x = sum32(x, -product32(A[i][k], c[k]))
+            A[i][j] = product32(x, inverse[j])
+    return inverse
+
+
+def substitute32(A, inverse, x):
+    n = len(x)
+    for i in range(1, n):
+        for k in range(i):
+            x[i] = sum32(x[i], -product32(A[i][k], x[k]))
+    for i in range(n):
+        x[i] = product32(x[i], inverse[i])
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            x[i] = sum32(x[i], -product32(A[k][i], x[k]))
+
+
+def constrain32(w, b):
+    sum_w, sum_b = 0.0, 0.0
+    for x, y in zip(w, b):
+        sum_w, sum_b = sum32(sum_w, x), sum32(sum_b, y)
+    f = f32(sum32(1.0, -sum_w) / sum_b) if sum_b > 0 else 0.0
+    for i in range(len(w)):
+        w[i] = sum32(w[i], product32(b[i], f))
+
+
+class LaneField:
+    """Section 3. weights: of every row; steps: of every row, or None where values are whole; learners: LaneWeights
+    of every row, or None where the weights are kept."""
+
+    def __init__(self, data, rows, planes, weights, steps, learners=None):
         self.section = LaneSection(data, min(16, planes))
         self.rows = rows
         self.weights = weights
@@ -127,8 +214,17 @@ class LaneField:
         self.planes = [[0.0] * len(rows) for _ in range(planes)]
         for block in range((planes + 8 + 15) // 16 if planes > 0 else 0):
             first = max(0, 16 * block - 8)
+            if learners and block in (1, 2):
+                self.learn(learners, block)
             self.decode_block(block, first, min(16 * block + 8, planes) - first)
         self.section.check()
+
+    def learn(self, learners, block):
+        for r, learner in enumerate(learners):
+            for first in (0,) if block == 1 else (8, 16):
+                learner.observe(self.planes[first:first + 8])
+            if self.history[r] >= 4 * block:
+                self.weights[r] = learner.solve()
 
     def decode_block(self, block, first, lanes):
         self.magnitude = [[0] * lanes for _ in self.rows]
@@ -174,7 +270,7 @@ class LaneField:
 
 
 def decode_positions(data, order):
-    """Section 4: grid position of every row."""
+    """Section 5: grid position of every row."""
     rows = [Row(n, ring, [], []) for n, ring in zip(order.neighbours, order.ring)]
     weights = [position_weights(len(n), ring) if n else [] for n, ring in zip(order.neighbours, order.ring)]
     planes = LaneField(data, rows, 3, weights, None).planes
@@ -183,7 +279,7 @@ def decode_positions(data, order):
 
 
 def decode_plain_order(data, vertex_count):
-    """Section 4: the output index of every coding vertex."""
+    """Section 5: the output index of every coding vertex."""
     section = LaneSection(data, 1)
     output = []
     met = set()
@@ -213,13 +309,10 @@ def build_fast_graph(grid, order):
 
 
 def decode_coefficients(data, rows, components, positions):
-    weights = []
-    for r in range(len(rows)):
-        row = RowWeights(rows, r, COEFFICIENT_WEIGHTS)
-        row.observe_reference(positions)
-        row.solve()
-        weights.append(row.w)
-    return LaneField(data, rows, components, weights, [STEPS[row.step_level] for row in rows]).planes
+    learners = [LaneWeights(rows, r, positions) for r in range(len(rows))]
+    weights = [learner.solve() for learner in learners]
+    steps = [STEPS[row.step_level] for row in rows]
+    return LaneField(data, rows, components, weights, steps, learners).planes
 
 
 def decode_basis(data, rows, components):

@@ -21,6 +21,10 @@ SurfaceGraph torus_graph() {
   return surface;
 }
 
+LaneStart torus_start(const SurfaceGraph& surface) {
+  return lane_start(surface, GridPoints(on_grid(torus(30, 20), 10)));
+}
+
 /// Smooth planes, the later the smaller.
 LaneField::Planes smooth_planes(const SurfaceGraph& surface, uint32_t count) {
   LaneField::Planes out(count);
@@ -36,9 +40,8 @@ struct Coded {
   LaneField::Planes planes;
 };
 
-Coded encode(const PredictionGraph& graph, const std::vector<float>& weights,
-             const LaneField::Planes& targets, const LaneFieldOptions& options, double lambda) {
-  LaneField field(graph, weights, options);
+Coded encode(const PredictionGraph& graph, LaneField field, const LaneField::Planes& targets,
+             double lambda) {
   const SymbolCosts costs = expected_costs();
   LaneFieldEncoder encoder(field, graph, lambda, 0, costs);
   const auto count = static_cast<uint32_t>(targets.size());
@@ -53,11 +56,11 @@ Coded encode(const PredictionGraph& graph, const std::vector<float>& weights,
 
 TEST_CASE("a lane field decodes to what its encoder had", "[lane_field]") {
   const SurfaceGraph surface = torus_graph();
-  const std::vector<float> weights = prior_weights(surface.graph);
+  const LaneStart start = torus_start(surface);
   for (const uint32_t count : {1u, 7u, 8u, 9u, 24u, 25u, 40u}) {
     const LaneField::Planes targets = smooth_planes(surface, count);
-    const Coded coded = encode(surface.graph, weights, targets, {}, 0.1);
-    LaneField field(surface.graph, weights, {});
+    const Coded coded = encode(surface.graph, LaneField(surface.graph, start), targets, 0.1);
+    LaneField field(surface.graph, start);
     LaneField::Planes planes;
     REQUIRE(decode_lane_field(coded.section, count, field, planes));
     CHECK(planes == coded.planes);
@@ -80,7 +83,8 @@ TEST_CASE("a whole lane field gives integers back", "[lane_field]") {
       targets[a].push_back(static_cast<float>(grid[size_t{v} * 3 + a]));
   }
   const std::vector<float> weights = position_weights(surface.graph);
-  const Coded coded = encode(surface.graph, weights, targets, {.whole = true}, 0);
+  const LaneFieldOptions options = {.whole = true};
+  const Coded coded = encode(surface.graph, LaneField(surface.graph, weights, options), targets, 0);
   LaneField field(surface.graph, weights, {.whole = true});
   LaneField::Planes planes;
   REQUIRE(decode_lane_field(coded.section, 3, field, planes));
@@ -125,7 +129,8 @@ TEST_CASE("classes follow the magnitudes around", "[lane_field]") {
 TEST_CASE("cut lane fields are refused", "[lane_field]") {
   const SurfaceGraph surface = torus_graph();
   const std::vector<float> weights = prior_weights(surface.graph);
-  const Coded coded = encode(surface.graph, weights, smooth_planes(surface, 9), {}, 0.1);
+  const Coded coded =
+      encode(surface.graph, LaneField(surface.graph, weights, {}), smooth_planes(surface, 9), 0.1);
   for (size_t size = 0; size < coded.section.size(); size += 1 + size / 20) {
     LaneField field(surface.graph, weights, {});
     LaneField::Planes planes;
