@@ -76,11 +76,7 @@ void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t
 }
 
 void Field::expect(uint32_t components) {
-  if (!options_.adaptive) return;
-  for (learned_components_ = components; learned_components_ > 0; --learned_components_) {
-    const uint32_t k = learned_components_ - 1;
-    if (k + 1 < components && resolve_after(k)) break;
-  }
+  if (options_.adaptive) learned_components_ = std::max(components, 1u) - 1;
 }
 
 std::vector<std::vector<float>> Field::next_group() {
@@ -113,7 +109,7 @@ void Field::finish_component(double energy, bool learns) {
   if (!learns) return;
   const uint32_t fine_rows = rows - rows / 4;
   estimator_.finish_component(options_.noise_share * (energy / fine_rows) + options_.noise_floor);
-  if (resolve_after(component_count() - 1)) estimator_.solve();
+  estimator_.solve(misses_to_solve(component_count() - 1));
 }
 
 }  // namespace reeb

@@ -118,7 +118,7 @@ inline Surroundings Field::surroundings(uint32_t row) const {
 
 template <class Residual>
 void Field::code_component(Residual&& residual) {
-  if (planes_.empty() && options_.predict) estimator_.solve();
+  if (planes_.empty() && options_.predict) estimator_.solve(1);
   const auto rows = static_cast<uint32_t>(magnitude_.size());
   const bool learns = component_count() < learned_components_;
   if (learns) estimator_.begin_component();

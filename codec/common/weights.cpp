@@ -93,7 +93,7 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
       targets_(options.sum_to_one ? 0 : graph.size()),
       values_(size_t{graph.size()} * kObservations),
       folded_(graph.size(), 0),
-      stale_(graph.size(), 1),
+      misses_(graph.size(), kNeverSolved),
       weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {}
 
 void WeightEstimator::observe_reference(const GridPoints& points,
@@ -108,7 +108,7 @@ void WeightEstimator::observe_reference(const GridPoints& points,
     kernels_.store_equations(batch, equations);
   };
   solve_reference(graph_, options_, points, order, kernels_, weights_, keep);
-  std::fill(stale_.begin(), stale_.end(), uint8_t{0});
+  std::fill(misses_.begin(), misses_.end(), uint8_t{0});
 }
 
 // Not before: a field that learns nothing needs none, and what the reference gives is written once.
@@ -150,23 +150,25 @@ void WeightEstimator::fade(double factor) {
     if (options_.sum_to_one) continue;
     for (double& entry : targets_[r]) entry *= factor;
   }
-  std::fill(stale_.begin(), stale_.end(), uint8_t{1});
+  std::fill(misses_.begin(), misses_.end(), kNeverSolved);
 }
 
-void WeightEstimator::solve() {
+void WeightEstimator::solve(uint32_t misses) {
   make_equations();
   std::vector<uint32_t> rows;
   for (uint32_t r = 0; r < graph_.size(); ++r) {
-    if (stale_[r] != 0) rows.push_back(r);
+    if (misses_[r] < misses) continue;
+    rows.push_back(r);
+    misses_[r] = 0;
   }
-  std::fill(stale_.begin(), stale_.end(), uint8_t{0});
   const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
   parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes) solve(rows, first);
+    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
+      solve_eight(rows, first);
   });
 }
 
-void WeightEstimator::solve(const std::vector<uint32_t>& rows, uint32_t first) {
+void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t first) {
   const uint32_t count = std::min(kLanes, static_cast<uint32_t>(rows.size()) - first);
   float dropped[kMaxNeighbours];
   const RowEquations* equations[kLanes];

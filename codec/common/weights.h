@@ -1,6 +1,6 @@
 // Prediction weights that learn while decoding: for every row of a field, ridge least squares over
-// everything decoded so far (the reference positions and all earlier components), re-solved on a
-// thinning schedule.
+// everything decoded so far (the reference positions and all earlier components), re-solved where
+// predictions failed.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct WeightOptions {
 /// to binary32.
 ///
 /// A row that its weights have predicted without error keeps them: what it has observed since
-/// agrees with them, so that they are the minimum still. The others are *stale*.
+/// agrees with them, so that they are the minimum still. A component in which a row erred is a
+/// *miss* of its weights.
 class WeightEstimator {
  public:
   /// `graph` must outlive the estimator. `threads` >= 1; the weights do not depend on it.
@@ -40,22 +41,24 @@ class WeightEstimator {
   /// Starts a component to learn from.
   void begin_component();
 
-  /// The row's value in the component being decoded, and whether it was predicted `exactly`: a row
-  /// that was not becomes stale.
+  /// The row's value in the component being decoded, and whether it was predicted `exactly`, which
+  /// is no miss.
   void note(uint32_t row, float value, bool exactly) {
     values_[size_t{row} * kObservations + observations_] = value;
-    if (!exactly) stale_[row] = 1;
+    if (!exactly && misses_[row] < kNeverSolved) ++misses_[row];
   }
 
   /// Learns from the component, all of whose rows are noted and whose residuals had the given
   /// variance.
   void finish_component(double noise);
 
-  /// Lets all that is observed count `factor` times as much; all rows become stale.
+  /// Lets all that is observed count `factor` times as much; all rows count as never solved
+  /// for.
   void fade(double factor);
 
-  /// Brings the weights of stale rows up to date; at first all are.
-  void solve();
+  /// Brings the weights of rows up to date that have had as many misses since they were last solved
+  /// for, up to 254, or that never were.
+  void solve(uint32_t misses);
 
   /// kMaxNeighbours weights of a row; 0 for padding.
   const float* weights(uint32_t row) const { return &weights_[size_t{row} * kMaxNeighbours]; }
@@ -64,7 +67,9 @@ class WeightEstimator {
   void make_equations();
   void fold(uint32_t row);
   /// For rows[first] and the seven after it.
-  void solve(const std::vector<uint32_t>& rows, uint32_t first);
+  void solve_eight(const std::vector<uint32_t>& rows, uint32_t first);
+
+  static constexpr uint8_t kNeverSolved = 255;
 
   const PredictionGraph& graph_;
   WeightOptions options_;
@@ -76,16 +81,14 @@ class WeightEstimator {
   double scale_[kObservations] = {};     ///< 1 / sqrt(noise) of each
   uint32_t observations_ = 0;            ///< that are in `values_`
   std::vector<uint8_t> folded_;          ///< of these, those in the row's equations
-  std::vector<uint8_t> stale_;
+  std::vector<uint8_t> misses_;          ///< since the row was solved for
   std::vector<float> weights_;
 };
 
-/// True where the weights are re-solved after component k: every one at first, then ever fewer.
-constexpr bool resolve_after(uint32_t k) {
-  if (k < 4) return true;
-  if (k < 16) return k % 2 == 1;
-  if (k < 64) return k % 4 == 3;
-  return k % 16 == 15;
+/// Misses that a row is re-solved for after component k: few at first, while it knows little.
+constexpr uint32_t misses_to_solve(uint32_t k) {
+  if (k < 32) return 1;
+  return k < 96 ? 2 : 4;
 }
 
 }  // namespace reeb

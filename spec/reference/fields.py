@@ -7,7 +7,7 @@ from .container import MAIN, THESIS
 from .entropy import EVEN, Mixer, RangeDecoder, ShortBit, adaptive_bits
 from .errors import require
 from .surface import STEPS
-from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, LOOSE_WEIGHTS, RowWeights, WeightOptions, due
+from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, LOOSE_WEIGHTS, RowWeights, WeightOptions, misses_to_solve
 
 
 @dataclass
@@ -204,7 +204,7 @@ class Field:
         noise = self.options.noise_share * (energy / (len(rows) - len(rows) // 4)) + self.options.noise_floor
         for weights, magnitude in zip(self.weights, self.last):
             weights.observe(self.planes[-1], noise, magnitude != 0)
-            if due(k) and weights.stale:
+            if weights.misses >= misses_to_solve(k):
                 weights.solve()
 
 

@@ -16,15 +16,11 @@ LOOSE_WEIGHTS = WeightOptions(2.4, 1.5, True)
 BASIS_WEIGHTS = WeightOptions(0.5, 0.25, False)
 
 
-def due(k):
-    """The schedule: whether weights are solved for after component k."""
-    if k < 4:
-        return True
-    if k < 16:
-        return k % 2 == 1
-    if k < 64:
-        return k % 4 == 3
-    return k % 16 == 15
+def misses_to_solve(k):
+    """Misses that a row's weights are solved for after component k."""
+    if k < 32:
+        return 1
+    return 2 if k < 96 else 4
 
 
 class RowWeights:
@@ -40,7 +36,7 @@ class RowWeights:
             deviation = options.ring_deviation if i < self.row.ring else options.extra_deviation
             self.precision.append(self.row.precision[i] / (deviation * deviation))
         self.w = []
-        self.stale = True
+        self.misses = 0
 
     def observe_reference(self, positions):
         """positions: grid position of every row."""
@@ -55,8 +51,8 @@ class RowWeights:
                 product = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2]
                 self.M[i][j] = self.M[i][j] + product * inverse_noise
 
-    def observe(self, plane, noise, mended):
-        """mended: whether the row had a residual."""
+    def observe(self, plane, noise, missed):
+        """missed: whether the row had a residual."""
         scale = 1 / math.sqrt(noise)
         t = plane[self.index]
         to_one = self.options.sum_to_one
@@ -67,7 +63,7 @@ class RowWeights:
                 M[j] = M[j] + y[i] * y[j]
             if not to_one:
                 self.T[i] = self.T[i] + y[i] * (t * scale)
-        self.stale = self.stale or mended
+        self.misses += missed
 
     def forget(self):
         """fields.md section 6."""
@@ -87,7 +83,7 @@ class RowWeights:
             substitute(A, inverse, b)
             constrain(w, b)
         self.w = [f32(x) for x in w]
-        self.stale = False
+        self.misses = 0
 
 
 def factorise(A):

@@ -1,6 +1,8 @@
 #include "codec/common/weights.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -94,9 +96,9 @@ std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsi
   if (reference) estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
   for (size_t o = 0; o < f.planes.size(); ++o) {
     observe(estimator, f.planes[o], false, f.noise[o]);
-    if (o % 2 == 1) estimator.solve();  // observations add up over several solves
+    if (o % 2 == 1) estimator.solve(1);  // observations add up over several solves
   }
-  estimator.solve();
+  estimator.solve(1);
   const float* first = estimator.weights(0);
   return {first, first + size_t{f.surface.graph.size()} * kMaxNeighbours};
 }
@@ -241,8 +243,8 @@ TEST_CASE("weights of rows predicted without error need not be solved for", "[we
   std::mt19937 random(9);
   const uint32_t rows = f.surface.graph.size();
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    lazy.solve();
-    eager.solve();
+    lazy.solve(1);
+    eager.solve(1);
     std::vector<float> plane(rows);
     lazy.begin_component();
     for (uint32_t r = 0; r < rows; ++r) {
@@ -268,7 +270,7 @@ TEST_CASE("faded observations count less", "[weights]") {
     f.noise[o] *= 4;
   }
   faded.fade(0.25);
-  faded.solve();
+  faded.solve(1);
   for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
     const Eigen::VectorXd expected = best_weights(f, r, {});
     for (uint32_t i = 0; i < f.surface.graph.rows[r].count; ++i)
@@ -276,11 +278,39 @@ TEST_CASE("faded observations count less", "[weights]") {
   }
 }
 
-TEST_CASE("weights are re-solved less and less often", "[weights]") {
-  CHECK(resolve_after(0));
-  uint32_t solves[3] = {0, 0, 0};
-  for (uint32_t k = 0; k < 300; ++k) solves[k / 100] += resolve_after(k);
-  CHECK(solves[0] > solves[1]);
-  CHECK(solves[1] >= solves[2]);
-  CHECK(solves[2] > 0);
+TEST_CASE("rows are solved for when they have missed often enough", "[weights]") {
+  const Fixture f(torus(16, 11), 6);
+  WeightEstimator estimator(f.surface.graph, {}, 1);
+  const uint32_t rows = f.surface.graph.size();
+  const auto observe_with_misses = [&](size_t o) {  // row r misses in the first r mod 4 components
+    estimator.begin_component();
+    for (uint32_t r = 0; r < rows; ++r) estimator.note(r, f.planes[o][r], o >= r % 4);
+    estimator.finish_component(f.noise[o]);
+  };
+  estimator.solve(200);  // rows never solved for are, whatever the number
+  const std::vector<float> first(estimator.weights(0),
+                                 estimator.weights(0) + size_t{rows} * kMaxNeighbours);
+  const auto count_changed = [&] {
+    std::array<uint32_t, 4> changed{};
+    for (uint32_t r = rows / 2; r < rows; ++r) {
+      changed[r % 4] += !std::equal(estimator.weights(r), estimator.weights(r) + kMaxNeighbours,
+                                    &first[size_t{r} * kMaxNeighbours]);
+    }
+    return changed;
+  };
+  for (size_t o = 0; o < 3; ++o) observe_with_misses(o);
+  estimator.solve(4);
+  CHECK(count_changed() == std::array<uint32_t, 4>{});
+  estimator.solve(2);
+  const uint32_t quarter = rows / 8;  // of the later half
+  CHECK(count_changed() == std::array<uint32_t, 4>{0, 0, quarter, quarter});
+  observe_with_misses(0);
+  estimator.solve(2);  // rows 1, 5, ... have two by now; the others had begun anew
+  CHECK(count_changed() == std::array<uint32_t, 4>{0, quarter, quarter, quarter});
+}
+
+TEST_CASE("rows need more misses the more they know", "[weights]") {
+  const std::vector<std::pair<uint32_t, uint32_t>> expected = {{0, 1},  {31, 1}, {32, 2},
+                                                               {95, 2}, {96, 4}, {1u << 20, 4}};
+  for (const auto& [k, misses] : expected) CHECK(misses_to_solve(k) == misses);
 }
