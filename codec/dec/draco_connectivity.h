@@ -11,12 +11,11 @@
 
 namespace reeb {
 
-/// What a Draco 2.2 edgebreaker file of a mesh with constant positions starts and ends with; the
+/// What a Draco 2.2 edgebreaker file of a mesh without attributes starts and ends with; the
 /// stream keeps what is in between, so that nothing but connectivity is ever decoded from foreign
 /// bytes.
 inline constexpr std::array<uint8_t, 11> kDracoFront = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0};
-inline constexpr std::array<uint8_t, 20> kDracoBack = {1, 0xFF, 0, 1, 1, 0, 5, 3,    0, 0,
-                                                       1, 0xFE, 1, 1, 3, 1, 1, 0x40, 1, 0};
+inline constexpr std::array<uint8_t, 1> kDracoBack = {0};  // no attributes: they take time
 
 /// Bytes that Draco takes while it decodes, per triangle; measured, with room to spare.
 inline constexpr uint64_t kDracoMemoryPerTriangle = 128;

@@ -5,6 +5,7 @@
 #include <draco/mesh/mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace reeb {
@@ -40,14 +41,16 @@ bool encode_file(std::span<const uint32_t> triangles, uint32_t vertex_count, boo
   return true;
 }
 
-// Cuts the constant ends off; false where they are not what they should be.
+// Cuts the constant front off, and the positions; false where they are not what they should be.
 bool cut_ends(const Bytes& file, Bytes& middle) {
-  if (file.size() < kDracoFront.size() + kDracoBack.size()) return false;
+  constexpr std::array<uint8_t, 20> kPositions = {1, 0xFF, 0, 1, 1, 0, 5, 3,    0, 0,
+                                                  1, 0xFE, 1, 1, 3, 1, 1, 0x40, 1, 0};
+  if (file.size() < kDracoFront.size() + kPositions.size()) return false;
   const auto begin = file.begin() + kDracoFront.size();
-  const auto end = file.end() - kDracoBack.size();
+  const auto end = file.end() - kPositions.size();
   middle.assign(begin, end);
   return std::equal(kDracoFront.begin(), kDracoFront.end(), file.begin()) &&
-         std::equal(kDracoBack.begin(), kDracoBack.end(), end);
+         std::equal(kPositions.begin(), kPositions.end(), end);
 }
 
 // The vertex numbers that the positions of a decoded file hold, by point.

@@ -15,7 +15,7 @@ from .order import arrange_faces, decode_order
 from .points import GRID_SIZE, PointDecoder
 
 DRACO_FRONT = bytes.fromhex("44 52 41 43 4F 02 02 01 01 00 00")
-DRACO_BACK = bytes.fromhex("01 FF 00 01 01 00 05 03 00 00 01 FE 01 01 03 01 01 40 01 00")
+DRACO_BACK = bytes(1)
 
 
 @dataclass
