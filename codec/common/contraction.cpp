@@ -1,10 +1,14 @@
 #include "codec/common/contraction.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
+
+#include "codec/common/batches.h"
 
 namespace reeb {
 
@@ -16,15 +20,12 @@ constexpr uint32_t kMinProgress = 200;  ///< stop when a level removes fewer tha
 constexpr uint32_t kBaseNeighbours = 4;
 constexpr uint32_t kMostAround = 12;  ///< neighbours of a row: more gain little and take time
 
-constexpr uint32_t kNone = UINT32_MAX;
+constexpr uint32_t kNoTarget = UINT32_MAX;
 
-/// The neighbours of a vertex. One that has more than there is room for stays to the end.
-struct Around {
-  uint32_t size = 0;
-  bool full = false;
-  uint32_t vertex[kMaxNeighbours];  ///< kNone from `size` on
+/// The neighbours of a vertex, in a cache line; from the last one on there is what stands for none.
+struct alignas(64) Around {
+  uint32_t vertex[kMaxNeighbours];
 
-  Around() { std::fill(std::begin(vertex), std::end(vertex), kNone); }
   /// Place of v, or kMaxNeighbours. Looks at all places at once, since a loop that ends early takes
   /// longer for the processor's wrong guess of where.
   uint32_t find(uint32_t v) const {
@@ -32,7 +33,7 @@ struct Around {
     const auto* at = reinterpret_cast<const __m128i*>(vertex);
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(v));
     __m128i same[4];
-    for (int i = 0; i < 4; ++i) same[i] = _mm_cmpeq_epi32(_mm_loadu_si128(at + i), wanted);
+    for (int i = 0; i < 4; ++i) same[i] = _mm_cmpeq_epi32(_mm_load_si128(at + i), wanted);
     const __m128i bytes =
         _mm_packs_epi16(_mm_packs_epi32(same[0], same[1]), _mm_packs_epi32(same[2], same[3]));
     const auto found = static_cast<uint32_t>(_mm_movemask_epi8(bytes));
@@ -44,44 +45,36 @@ struct Around {
     return static_cast<uint32_t>(std::countr_zero(found | 1u << kMaxNeighbours));
   }
   bool has(uint32_t v) const { return find(v) < kMaxNeighbours; }
-  void add(uint32_t v) {
-    if (has(v)) return;
-    if (size == kMaxNeighbours) {
-      full = true;
-    } else {
-      vertex[size++] = v;
-    }
-  }
-  void erase(uint32_t i) {
-    vertex[i] = vertex[--size];
-    vertex[size] = kNone;
-  }
 };
 
-/// A vertex that was removed, and what surrounded it, ring first.
-struct Removed {
-  uint32_t vertex;
-  uint8_t ring, count;
-  uint32_t neighbour[kMostAround + 1];  ///< the last place takes what there is no room for
+/// How many neighbours a vertex has. One that was to have more than there is room for is full: it
+/// stays to the end.
+struct Valence {
+  uint8_t size = 0;
+  bool full = false;
 };
 
+/// What follows goes without branches on what the mesh looks like: they are hard to foresee.
 class Contraction {
  public:
   Contraction(uint32_t vertex_count, std::span<const uint32_t> triangles)
-      : around_(vertex_count), locked_(vertex_count, 0), met_(vertex_count, 0) {
+      : none_(vertex_count),
+        around_(vertex_count),
+        valence_(vertex_count),
+        locked_(vertex_count, 0),
+        met_(vertex_count + 1, 0) {
+    for (Around& a : around_) std::fill(std::begin(a.vertex), std::end(a.vertex), none_);
     for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
-      for (size_t j = 0; j < 3; ++j) {
-        around_[triangles[i + j]].add(triangles[i + (j + 1) % 3]);
-        around_[triangles[i + j]].add(triangles[i + (j + 2) % 3]);
-      }
+      for (size_t j = 0; j < 3; ++j)
+        add(triangles[i + j], triangles[i + (j + 1) % 3], triangles[i + (j + 2) % 3]);
     }
   }
 
   SurfaceGraph run() {
     std::vector<uint32_t> isolated;
-    for (uint32_t v = 0; v < around_.size(); ++v)
-      (around_[v].size == 0 ? isolated : alive_).push_back(v);
-    removed_.reserve(around_.size());
+    for (uint32_t v = 0; v < none_; ++v) (valence_[v].size == 0 ? isolated : alive_).push_back(v);
+    out_.graph.rows.resize(none_);
+    first_free_ = static_cast<uint32_t>(alive_.size());
     while (alive_.size() > kBaseSize) {
       const size_t before = alive_.size();
       run_level();
@@ -91,107 +84,132 @@ class Contraction {
   }
 
  private:
+  /// Makes two vertices, which are different, neighbours of v.
+  void add(uint32_t v, uint32_t first, uint32_t second) {
+    Around& a = around_[v];
+    Valence& valence = valence_[v];
+    const bool has_second = a.has(second);
+    for (const auto& [u, has] : {std::pair(first, a.has(first)), std::pair(second, has_second)}) {
+      if (has) continue;
+      if (valence.size < kMaxNeighbours) {
+        a.vertex[valence.size++] = u;
+      } else {
+        valence.full = true;
+      }
+    }
+  }
+
   void run_level() {
     ++level_;
     std::erase_if(alive_, [&](uint32_t v) {
-      const Around& ring = around_[v];
-      if (locked_[v] == level_ || ring.full || ring.size == 0 || ring.size > kMaxValence)
+      const Valence valence = valence_[v];
+      if (locked_[v] == level_ || valence.full || valence.size == 0 || valence.size > kMaxValence)
         return false;
-      const uint32_t target = choose_target(ring);
-      if (target == kNone) return false;
+      const uint32_t target = choose_target(around_[v], valence.size);
+      if (target == kNoTarget) return false;
       note(v);
-      for (uint32_t i = 0; i < ring.size; ++i) locked_[ring.vertex[i]] = level_;
+      for (uint32_t i = 0; i < valence.size; ++i) locked_[around_[v].vertex[i]] = level_;
       contract(v, target);
       return true;
     });
   }
 
   /// The neighbour with the fewest neighbours, the first of those, where the vertex may go.
-  uint32_t choose_target(const Around& ring) const {
-    uint32_t best = kNone;
-    uint32_t least = kMaxNeighbours + 1 - ring.size;
-    for (uint32_t i = 0; i < ring.size; ++i) {
-      const Around& a = around_[ring.vertex[i]];
-      if (a.full || a.size >= least) continue;
-      best = ring.vertex[i];
-      least = a.size;
+  uint32_t choose_target(const Around& ring, uint32_t size) const {
+    uint32_t best = kNoTarget;
+    uint32_t least = kMaxNeighbours + 1 - size;
+    for (uint32_t i = 0; i < size; ++i) {
+      const Valence valence = valence_[ring.vertex[i]];
+      const bool fewer = !valence.full && valence.size < least;
+      best = fewer ? ring.vertex[i] : best;
+      least = fewer ? valence.size : least;
     }
     return best;
   }
 
-  /// Keeps what surrounds v: its ring, then the neighbours of those, first the ones that two or
-  /// more of them share. Whether a neighbour was met is hard to foresee, hence no branches on it.
+  /// Makes the row of v, which is removed: its ring, then the neighbours of those, first the ones
+  /// that two or more of them share. For now, neighbours are vertices.
   void note(uint32_t v) {
     const Around& ring = around_[v];
-    Removed& out = removed_.emplace_back();
-    out.vertex = v;
-    out.ring = static_cast<uint8_t>(ring.size);
-    std::copy_n(ring.vertex, ring.size, out.neighbour);
+    const uint32_t size = valence_[v].size;
+    PredictionGraph::Row& row = out_.graph.rows[--first_free_];
+    row.ring = static_cast<uint8_t>(size);
+    row.neighbour = std::to_array(ring.vertex);
     mark_ += 2;  // met once: mark_; met again, or not wanted: mark_ + 1
-    met_[v] = mark_ + 1;
-    for (uint32_t i = 0; i < ring.size; ++i) met_[ring.vertex[i]] = mark_ + 1;
+    met_[v] = met_[none_] = mark_ + 1;
+    for (uint32_t i = 0; i < size; ++i) met_[ring.vertex[i]] = mark_ + 1;
     uint32_t once[kMaxValence * kMaxNeighbours];
     uint32_t once_count = 0;
-    uint32_t count = ring.size;
-    for (uint32_t i = 0; i < ring.size; ++i) {
+    uint32_t count = size;
+    const auto meet = [&](uint32_t u) {
+      const uint32_t met = met_[u];
+      once[once_count] = u;
+      once_count += met < mark_ ? 1 : 0;
+      row.neighbour[count] = u;
+      count += met == mark_ && count < kMostAround ? 1 : 0;
+      met_[u] = met < mark_ ? mark_ : mark_ + 1;
+    };
+    constexpr uint32_t kUsual = 8;
+    for (uint32_t i = 0; i < size; ++i) {
       const Around& a = around_[ring.vertex[i]];
-      for (uint32_t j = 0; j < a.size; ++j) {
-        const uint32_t u = a.vertex[j];
-        const uint32_t met = met_[u];
-        once[once_count] = u;
-        once_count += met < mark_ ? 1 : 0;
-        out.neighbour[count] = u;
-        count += met == mark_ && count < kMostAround ? 1 : 0;
-        met_[u] = met < mark_ ? mark_ : mark_ + 1;
-      }
+      for (uint32_t j = 0; j < kUsual; ++j) meet(a.vertex[j]);
+      for (uint32_t j = kUsual; j < valence_[ring.vertex[i]].size; ++j) meet(a.vertex[j]);
     }
     for (uint32_t i = 0; i < once_count; ++i) {
-      out.neighbour[count] = once[i];
+      row.neighbour[count] = once[i];
       count += met_[once[i]] == mark_ && count < kMostAround ? 1 : 0;
     }
-    out.count = static_cast<uint8_t>(count);
+    row.count = static_cast<uint8_t>(count);
+    removed_.push_back(v);
   }
 
   void contract(uint32_t v, uint32_t target) {
-    Around& ring = around_[v];
-    Around& merged = around_[target];
-    for (uint32_t i = 0; i < ring.size; ++i) {
-      Around& a = around_[ring.vertex[i]];
-      const uint32_t at = a.find(v);
-      if (ring.vertex[i] == target || a.has(target)) {
-        if (at < a.size) a.erase(at);
-      } else if (at < a.size) {
-        a.vertex[at] = target;
-      }
-      if (ring.vertex[i] != target) merged.add(ring.vertex[i]);
+    const Around ring = around_[v];
+    const Around before = around_[target];  // to which nothing is added that it has
+    uint32_t merged[kMaxValence];
+    uint32_t merged_count = 0;
+    for (uint32_t i = 0; i < valence_[v].size; ++i) {
+      const uint32_t w = ring.vertex[i];
+      replace(w, v, target);
+      merged[merged_count] = w;
+      merged_count += w != target && !before.has(w) ? 1 : 0;
     }
-    ring = {};
+    // There is room: choose_target sees to it.
+    std::copy_n(merged, merged_count, &around_[target].vertex[valence_[target].size]);
+    valence_[target].size = static_cast<uint8_t>(valence_[target].size + merged_count);
+    valence_[v].size = 0;
+  }
+
+  /// In the list of w, v gives way to the target; where that is there or is w, to nothing.
+  void replace(uint32_t w, uint32_t v, uint32_t target) {
+    Around& a = around_[w];
+    const uint32_t at = a.find(v);
+    const bool erase = w == target || a.has(target);
+    if (at == kMaxNeighbours) return;
+    uint32_t& last = a.vertex[valence_[w].size - 1];
+    a.vertex[at] = erase ? last : target;
+    last = erase ? none_ : last;
+    valence_[w].size = static_cast<uint8_t>(valence_[w].size - (erase ? 1 : 0));
   }
 
   /// Rows: what is left, what was removed in reverse, what has no neighbours.
   SurfaceGraph collect(const std::vector<uint32_t>& isolated) {
-    SurfaceGraph out;
-    out.order = alive_;
-    for (size_t i = removed_.size(); i-- > 0;) out.order.push_back(removed_[i].vertex);
-    out.order.insert(out.order.end(), isolated.begin(), isolated.end());
-    std::vector<uint32_t> rank(out.order.size());
-    for (uint32_t r = 0; r < rank.size(); ++r) rank[out.order[r]] = r;
-    out.graph.rows.resize(rank.size());
-    out.graph.step_level.resize(rank.size(), 0);
-    for (uint32_t r = 0; r < rank.size(); ++r) {
-      PredictionGraph::Row& row = out.graph.rows[r];
-      const size_t from_first = r - alive_.size();
-      if (from_first < removed_.size()) {
-        const Removed& from = removed_[removed_.size() - 1 - from_first];
-        row.ring = from.ring;
-        row.count = from.count;
-        for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = rank[from.neighbour[i]];
+    out_.order = alive_;
+    out_.order.insert(out_.order.end(), removed_.rbegin(), removed_.rend());
+    out_.order.insert(out_.order.end(), isolated.begin(), isolated.end());
+    std::vector<uint32_t> rank(none_);
+    for (uint32_t r = 0; r < none_; ++r) rank[out_.order[r]] = r;
+    out_.graph.step_level.resize(none_, 0);
+    for (uint32_t r = 0; r < none_; ++r) {
+      PredictionGraph::Row& row = out_.graph.rows[r];
+      if (r - alive_.size() < removed_.size()) {
+        for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = rank[row.neighbour[i]];
       } else {
         follow(r, row);
       }
       std::fill(row.neighbour.begin() + row.count, row.neighbour.end(), r);
     }
-    return out;
+    return std::move(out_);
   }
 
   /// A row that nothing surrounds goes by the rows before it.
@@ -201,11 +219,15 @@ class Contraction {
     for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = r - 1 - i;
   }
 
-  std::vector<Around> around_;
-  std::vector<Removed> removed_;
+  uint32_t none_;  ///< beyond all vertices
+  BatchVector<Around> around_;
+  std::vector<Valence> valence_;
+  std::vector<uint32_t> removed_;
   std::vector<uint32_t> alive_;
   std::vector<uint32_t> locked_;  ///< level at which the vertex must stay
   std::vector<uint32_t> met_;
+  SurfaceGraph out_;
+  uint32_t first_free_ = 0;  ///< the rows from here on are complete
   uint32_t level_ = 0;
   uint32_t mark_ = 0;
 };

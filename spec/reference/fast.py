@@ -69,6 +69,7 @@ class Contraction:
                     N[w].pop()
                 else:
                     N[w][at] = t
+        for w in N[v]:
             if w != t:
                 self.add(t, w)
         N[v] = []
