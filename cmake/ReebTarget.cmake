@@ -19,9 +19,6 @@ if(REEB_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 takes library code that sanitizers keep it from inlining for uninitialised.
     target_compile_options(reeb_rules INTERFACE -Wno-maybe-uninitialized)
-    # Half of the time that it takes to build. AddressSanitizer meets null pointers too, and Clang's
-    # build, the fuzzers', has all of them.
-    target_compile_options(reeb_rules INTERFACE -fno-sanitize=null,object-size,vptr,alignment)
   endif()
 endif()
 target_include_directories(reeb_rules INTERFACE ${PROJECT_SOURCE_DIR})

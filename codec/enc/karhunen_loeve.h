@@ -20,7 +20,7 @@ class KarhunenLoeve {
   const Eigen::VectorXd& energies() const { return energies_; }
   /// Energy of each vertex, in input order, world units squared.
   Eigen::VectorXd row_energies() const {
-    return signal_.trajectories.rowwise().squaredNorm().cast<double>();
+    return signal_.trajectories.cast<double>().rowwise().squaredNorm();
   }
   uint32_t size() const { return static_cast<uint32_t>(basis_.cols()); }
 

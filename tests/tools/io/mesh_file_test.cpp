@@ -117,7 +117,7 @@ TEST_CASE("OBJ: bad files say what is wrong and where") {
 TEST_CASE("OBJ: equal connectivity is recognised by its text or by its numbers") {
   const std::string first = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   const MeshFrame frame = read_ok(first, MeshFormat::kObj);
-  CHECK(frame.face_text == "f 1 2 3\n");
+  CHECK(std::string(frame.face_text) == "f 1 2 3\n");
   const MeshReference reference{frame.connectivity, std::string(frame.face_text)};
 
   const MeshFrame same =
