@@ -107,6 +107,10 @@ int run(Options& o) {
     console.error("--json and -o - both want standard output; name an output file");
     return kExitUsage;
   }
+  if (o.encoder.open_groups > 0 && o.encoder.profile != Profile::kMain) {
+    console.error("--open-groups needs --profile main: groups of the others are always closed");
+    return kExitUsage;
+  }
   if (o.output != "-") {
     if (Status status = check_target(o.output, o.overwrite); !status.ok()) {
       return fail(console, status);
@@ -201,7 +205,7 @@ void add_coding_options(CLI::App& command, Options& o) {
       .add_option(
           "--open-groups", o.encoder.open_groups,
           "Groups in a row, 0 to 63, that may continue the group before: smaller, but a seek "
-          "decodes the whole run; default 0")
+          "decodes the whole run; main profile only; default 0")
       ->excludes("--lossless")
       ->check(CLI::Range(0u, kMostOpenGroups).description(""))
       ->type_name("N")

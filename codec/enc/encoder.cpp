@@ -41,6 +41,9 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
     return Status::invalid("effort is not within 1 to 9");
   }
   if (options.open_groups > kMostOpenGroups) return Status::invalid("open_groups is above 63");
+  if (options.open_groups > 0 && options.profile != Profile::kMain && !lossless) {
+    return Status::invalid("open_groups needs the main profile");
+  }
   if (options.regions > 1024) return Status::invalid("regions is above 1024");
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     if (Status s = check_shot(sequence.shots[i], lossless, i); !s.ok()) return s;

@@ -25,7 +25,7 @@ Bytes small_stream(Profile profile, int effort = kDefaultEffort) {
   options.group_length = 3;
   options.regions = 2;
   options.profile = profile;
-  options.open_groups = 1;
+  options.open_groups = profile == Profile::kMain ? 1 : 0;
   if (profile == Profile::kLossless) options.target = Target::kLossless;
   options.effort = effort;
   return encode_or_fail(sequence, options).bytes;

@@ -14,7 +14,7 @@ constexpr uint64_t kSlack = 1u << 20;  // models, headers and names
 
 StreamKind make(const std::string& name, EncodeOptions options, const Shape& shape = torus(4, 3)) {
   // Faces that take every part of the reference mesh, in one stream of each kind of positions.
-  const bool every_part = name == "main" || name == "fast, open groups" || name == "lossless";
+  const bool every_part = name == "main" || name == "fast" || name == "lossless";
   const Shape other = every_part ? mixed_polygons() : fins(3);
   Sequence sequence = sequence_of({animate(shape, 6), animate(other, 2)});
   sequence.metadata = {{"name", "hostile"}};
@@ -40,8 +40,7 @@ std::vector<StreamKind> stream_kinds() {
   out.push_back(make("fast with regions, reordered", o));
   o = plain;
   o.profile = Profile::kFast;
-  o.open_groups = 1;
-  out.push_back(make("fast, open groups", o));
+  out.push_back(make("fast", o));
   o = plain;
   o.profile = Profile::kThesis;
   o.regions = 2;

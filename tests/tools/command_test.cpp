@@ -65,6 +65,7 @@ TEST_CASE("wrong usage is exit code 2, before any work") {
       {"encode", in, "-o", out, "--regions", "some"},
       {"encode", in, "-o", out, "--group-length", "0"},
       {"encode", in, "-o", out, "--open-groups", "64"},
+      {"encode", in, "-o", out, "--open-groups", "1", "--profile", "fast"},
       {"encode", in, "-o", out, "--effort", "0"},
       {"encode", in, "-o", out, "--effort", "10"},
       {"encode", in, "-o", out, "--effort", "most"},

@@ -42,6 +42,12 @@ TEST_CASE("options out of range are refused", "[encoder]") {
   options = quick_options();
   options.open_groups = 64;
   check_refused(small(), options);
+  for (const Profile profile : {Profile::kFast, Profile::kThesis}) {
+    options = quick_options();
+    options.open_groups = 1;
+    options.profile = profile;
+    check_refused(small(), options);
+  }
   for (const int effort : {-1, 0, 10}) {
     options = quick_options();
     options.effort = effort;
