@@ -64,7 +64,7 @@ using FoldKernel = void (*)(RowEquations&, double* target, const FoldTask&);
 /// Solves and writes the weights of lane l to out[l].
 using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
 
-inline constexpr uint32_t kTileRows = 32;
+inline constexpr uint32_t kTileRows = 64;
 
 /// The components of kTileRows vertices, all of which lie together, so that reading them is what
 /// memory does best. Plain pointers: inline members of containers, compiled for one instruction

@@ -16,9 +16,10 @@ namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
 
-/// As many integers as floats in a register, and what holds as many doubles.
+/// As many integers as floats in a register; a register of doubles, and as many floats.
 using Words = int32_t __attribute__((vector_size(kFloats * sizeof(float))));
-using Doubles = double __attribute__((vector_size(kFloats * sizeof(double))));
+using Doubles = double __attribute__((vector_size(kFloats * sizeof(float))));
+using HalfFloats = float __attribute__((vector_size(kFloats / 2 * sizeof(float))));
 
 /// sum + a b, a and b being pairs of 16-bit integers.
 inline Words add_products(Words sum, Words a, uint32_t pair) {
@@ -37,7 +38,7 @@ inline Words add_products(Words sum, Words a, uint32_t pair) {
 #endif
 }
 
-constexpr uint32_t kVectors = 2;  // by three axes: all sums stay in registers
+constexpr uint32_t kVectors = kFloats == 16 ? 4 : 2;  // by three axes: all sums stay in registers
 
 inline void add_wide(const ComponentTile& tile, const FrameBasis& basis, uint32_t first,
                      Floats (*sum)[kVectors]) {
@@ -62,6 +63,15 @@ inline void add_narrow(const ComponentTile& tile, const FrameBasis& basis, uint3
   }
 }
 
+/// Adds the mean in binary64, a register at a time: wider vectors would be put together in memory.
+inline void add_mean(double mean, float* axis) {
+  for (uint32_t i = 0; i < kTileRows; i += kFloats / 2) {
+    const Doubles moved = __builtin_convertvector(load<HalfFloats>(axis + i), Doubles) + mean;
+    const auto rounded = __builtin_convertvector(moved, HalfFloats);
+    std::memcpy(axis + i, &rounded, sizeof rounded);
+  }
+}
+
 void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
   float axes[3][kTileRows];
   for (uint32_t first = 0; first < kTileRows; first += kFloats * kVectors) {
@@ -72,12 +82,11 @@ void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
     for (uint32_t a = 0; a < 3; ++a) {
       for (uint32_t j = 0; j < kVectors; ++j) {
         const Floats all = wide[a][j] + basis.unit * __builtin_convertvector(narrow[a][j], Floats);
-        const Doubles moved = __builtin_convertvector(all, Doubles) + basis.mean[a];
-        const Floats rounded = __builtin_convertvector(moved, Floats);
-        std::memcpy(axes[a] + first + j * kFloats, &rounded, sizeof rounded);
+        std::memcpy(axes[a] + first + j * kFloats, &all, sizeof all);
       }
     }
   }
+  for (uint32_t a = 0; a < 3; ++a) add_mean(basis.mean[a], axes[a]);
   for (uint32_t i = 0; i < kTileRows; ++i) {
     for (uint32_t a = 0; a < 3; ++a) xyz[3 * i + a] = axes[a][i];
   }
