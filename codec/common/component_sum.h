@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codec/common/kernels.h"
+#include "codec/common/raw_vector.h"
 
 namespace reeb {
 
@@ -44,8 +45,8 @@ class ComponentSum {
   uint32_t vertices_ = 0;
   uint32_t wide_ = 0, narrow_ = 0;
   float unit_ = 0;                      ///< world units per unit of the sum of integers
-  std::vector<float> wide_tiles_;       ///< [tile][component][vertex], kTileRows vertices a tile
-  std::vector<uint32_t> narrow_tiles_;  ///< [tile][pair][vertex]: two 16-bit integers
+  RawVector<float> wide_tiles_;         ///< [tile][component][vertex], kTileRows vertices a tile
+  RawVector<uint32_t> narrow_tiles_;    ///< [tile][pair][vertex]: two 16-bit integers
   std::vector<float> wide_basis_;       ///< [time][axis][component]
   std::vector<uint32_t> narrow_basis_;  ///< [time][axis][pair]
   Kernels kernels_ = fastest_kernels();

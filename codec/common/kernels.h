@@ -91,16 +91,14 @@ using CombineKernel = void (*)(const ComponentTile& tile, const FrameBasis& basi
 
 /// What the kernels see of a LaneField: a block of components of all rows.
 struct LaneBlock {
-  const uint32_t* neighbours = nullptr;  ///< kMaxNeighbours a row
-  const float* weights = nullptr;        ///< the same
-  const uint8_t* counts = nullptr;       ///< neighbours of each row
-  const uint8_t* rings = nullptr;        ///< of them in the ring
-  const float* steps = nullptr;          ///< of each row
-  const uint32_t* history = nullptr;     ///< of each row, in 1/16; null in the first block
-  float* values = nullptr;               ///< [row][lane]
-  uint16_t* magnitudes = nullptr;        ///< [row][lane]
-  uint32_t running[kRansLanes] = {};     ///< decaying means of the magnitudes, in 1/256
-  uint32_t before[kRansLanes] = {};      ///< the same without the last row
+  const PredictionGraph::Row* rows = nullptr;
+  const float* weights = nullptr;     ///< kMaxNeighbours a row
+  const float* steps = nullptr;       ///< of each row
+  const uint32_t* history = nullptr;  ///< of each row, in 1/16; null in the first block
+  float* values = nullptr;            ///< [row][lane]
+  uint16_t* magnitudes = nullptr;     ///< [row][lane]
+  uint32_t running[kRansLanes] = {};  ///< decaying means of the magnitudes, in 1/256
+  uint32_t before[kRansLanes] = {};   ///< the same without the last row
   uint32_t row_count = 0;
   bool whole = false;  ///< predictions are rounded to integers
 };

@@ -21,17 +21,9 @@ LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weight
       values_(size_t{graph.size()} * kRansLanes),
       magnitudes_(values_.size()),
       history_(graph.size(), 0) {
-  neighbours_.reserve(size_t{graph.size()} * kMaxNeighbours);
-  for (uint32_t r = 0; r < graph.size(); ++r) {
-    const PredictionGraph::Row& row = graph.rows[r];
-    neighbours_.insert(neighbours_.end(), row.neighbour.begin(), row.neighbour.end());
-    counts_.push_back(row.count);
-    rings_.push_back(row.ring);
-    if (!options.whole) steps_[r] = static_cast<float>(kStepTable[graph.step_level[r]]) / 65536.0f;
-  }
-  block_.neighbours = neighbours_.data();
-  block_.counts = counts_.data();
-  block_.rings = rings_.data();
+  for (uint32_t r = 0; r < graph.size() && !options.whole; ++r)
+    steps_[r] = static_cast<float>(kStepTable[graph.step_level[r]]) / 65536.0f;
+  block_.rows = graph.rows.data();
   block_.row_count = graph.size();
   block_.weights = weights.data();
   block_.steps = steps_.data();
@@ -45,10 +37,9 @@ LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start)
   start_ = &start;
 }
 
+// Values and magnitudes stay: a row sees but those of rows before it, which are new.
 void LaneField::begin_block() {
   if (start_ != nullptr && blocks_ > 0 && blocks_ <= kLearnedBlocks) learn();
-  std::fill(values_.begin(), values_.end(), 0.0f);
-  std::fill(magnitudes_.begin(), magnitudes_.end(), uint16_t{0});
   std::fill(std::begin(block_.running), std::end(block_.running), 0u);
   std::fill(std::begin(block_.before), std::end(block_.before), 0u);
 }

@@ -68,8 +68,6 @@ class LaneField {
   const PredictionGraph& graph_;
   const LaneStart* start_ = nullptr;  ///< where weights are learned
   Kernels kernels_ = fastest_kernels();
-  std::vector<uint32_t> neighbours_;
-  std::vector<uint8_t> counts_, rings_;
   std::vector<float> steps_;
   std::vector<float> weights_;  ///< once any are learned
   std::vector<float> values_;

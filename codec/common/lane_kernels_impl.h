@@ -29,10 +29,10 @@ using LanesF = float __attribute__((vector_size(kTogether * 4)));
 
 inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
   constexpr float kRound = 12582912.0f;  // 3 * 2^22: leaves no fraction
-  const uint32_t* neighbour = b.neighbours + size_t{row} * kMaxNeighbours;
+  const uint32_t* neighbour = elements(b.rows[row].neighbour);
   const float* w = b.weights + size_t{row} * kMaxNeighbours;
   LanesF sum[4] = {};
-  for (uint32_t i = 0; i < b.counts[row]; i += 4) {
+  for (uint32_t i = 0; i < b.rows[row].count; i += 4) {
     for (uint32_t j = 0; j < 4; ++j)
       sum[j] += w[i + j] * load<LanesF>(b.values + size_t{neighbour[i + j]} * kRansLanes + first);
   }
@@ -42,8 +42,8 @@ inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
 
 /// Classes by the expected magnitude, half an octave each.
 inline LanesU classify_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
-  const uint32_t* neighbour = b.neighbours + size_t{row} * kMaxNeighbours;
-  const uint32_t ring = b.rings[row];
+  const uint32_t* neighbour = elements(b.rows[row].neighbour);
+  const uint32_t ring = b.rows[row].ring;
   const LanesU running = load<LanesU>(b.before + first) >> 4;
   LanesU near = running;
   if (ring > 0) {

@@ -69,7 +69,7 @@ inline void collect_differences(const LaneRows& rows, const float* values, uint3
     own[l] = load<Floats8>(values + size_t{rows.index[l]} * stride);
   for (uint32_t i = 0; i < rows.count; ++i) {
     const auto from = [&](uint32_t l) {
-      return load<Floats8>(values + size_t{rows.row[l]->neighbour[i]} * stride) - own[l];
+      return load<Floats8>(values + size_t{elements(rows.row[l]->neighbour)[i]} * stride) - own[l];
     };
     gather_eight(from, y[i]);
   }
@@ -117,8 +117,9 @@ inline void expect(const LaneRows& rows, LanesF* a, LanesF* w, LanesF* b) {
   LanesF prior[kMaxNeighbours];
   LanesF precision[kMaxNeighbours];
   for (uint32_t i = 0; i < rows.count; i += 8) {
-    gather_eight([&](uint32_t l) { return load<Floats8>(&rows.row[l]->prior[i]); }, prior + i);
-    gather_eight([&](uint32_t l) { return load<Floats8>(&rows.row[l]->precision[i]); },
+    gather_eight([&](uint32_t l) { return load<Floats8>(elements(rows.row[l]->prior) + i); },
+                 prior + i);
+    gather_eight([&](uint32_t l) { return load<Floats8>(elements(rows.row[l]->precision) + i); },
                  precision + i);
   }
   const LanesF zero{};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "codec/common/grid.h"
+#include "codec/common/raw_vector.h"
 
 namespace reeb {
 
@@ -28,7 +29,7 @@ struct PredictionGraph {
     uint8_t count = 0;  ///< neighbours in use
     uint8_t ring = 0;   ///< the first of them, next to the row; they make the contexts
   };
-  std::vector<Row> rows;
+  RawVector<Row> rows;
   std::vector<uint8_t>
       step_level;  ///< index into kStepTable: a row that predicts many gets a finer step
 

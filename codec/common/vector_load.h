@@ -1,6 +1,7 @@
 // Reading vectors that need not be aligned; see kernels_impl.h.
 #pragma once
 
+#include <array>
 #include <cstring>
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
@@ -14,6 +15,12 @@ inline V load(const T* from) {
   V out;
   std::memcpy(&out, from, sizeof out);
   return out;
+}
+
+/// The elements of an array, without a member of it: see ComponentTile.
+template <class T, size_t N>
+inline const T* elements(const std::array<T, N>& from) {
+  return reinterpret_cast<const T*>(&from);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ uint64_t bytes_per_row(Profile profile) {
   return profile == Profile::kFast ? kFastBytesPerRow : kBytesPerRow;
 }
 
-template <class T>
-uint64_t bytes_of(const std::vector<T>& v) {
+template <class T, class Allocator>
+uint64_t bytes_of(const std::vector<T, Allocator>& v) {
   return v.capacity() * sizeof(T);
 }
 

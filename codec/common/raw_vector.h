@@ -1,0 +1,31 @@
+// Vectors whose elements are not set to zero before they are written.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace reeb {
+
+template <class T>
+struct RawAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = RawAllocator<U>;
+  };
+
+  /// Elements that no value is given for stay as memory comes, but for members with initialisers.
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
+};
+
+template <class T>
+using RawVector = std::vector<T, RawAllocator<T>>;
+
+}  // namespace reeb
