@@ -75,9 +75,11 @@ Status decode_plain_positions(std::span<const uint8_t> bytes, const PredictionGr
   return {};
 }
 
-Status decode_index_steps(std::span<const uint8_t> bytes, std::vector<uint32_t>& output_index) {
+Status decode_index_steps(std::span<const uint8_t> bytes, std::span<const uint32_t> triangles,
+                          std::vector<uint32_t>& output_index) {
   RansDecoder decoder;
-  if (!decoder.open(bytes, 1) || !code_index_steps(decoder, output_index) || decoder.overrun())
+  if (!decoder.open(bytes, 1) || !code_index_steps(decoder, triangles, output_index) ||
+      decoder.overrun())
     return Status::corrupt("mesh: the order is damaged");
   std::vector<bool> taken(output_index.size());
   for (const uint32_t v : output_index) {
@@ -97,7 +99,7 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
   }
   if ((h.flags & MeshHeader::kPlain) != 0) {
     output_index.assign(h.vertex_count, 0);
-    return decode_index_steps(bytes, output_index);
+    return decode_index_steps(bytes, triangles, output_index);
   }
   BinaryDecoder coder(bytes);
   return code_vertex_order(coder, h.vertex_count, triangles, output_index);

@@ -200,7 +200,7 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, 
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
   if (plain) {
     RansEncoder steps(1);
-    code_index_steps(steps, output_index);
+    code_index_steps(steps, collect_triangles(state), output_index);
     bytes = steps.finish();
     return {};
   }

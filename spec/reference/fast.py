@@ -279,19 +279,31 @@ def decode_positions(data, order):
     return [tuple(int(plane[r]) for plane in planes) for r in range(len(rows))]
 
 
-def decode_plain_order(data, vertex_count):
+def find_leaders(vertex_count, triangles):
+    leaders = [v - 1 for v in range(vertex_count)]
+    met = [False] * vertex_count
+    for i in range(0, len(triangles), 3):
+        for v in triangles[i:i + 3]:
+            for u in triangles[i:i + 3]:
+                if u < v and (not met[v] or u > leaders[v]):
+                    leaders[v] = u
+                    met[v] = True
+    return leaders
+
+
+def decode_plain_order(data, vertex_count, triangles):
     """Section 5: the output index of every coding vertex."""
+    leaders = find_leaders(vertex_count, triangles)
     section = LaneSection(data, 1)
     output = []
     met = set()
-    before = -1
     which = 0
     for v in range(vertex_count):
         n, symbol = section.decode(0, which)
-        before = before + 1 + n
-        require(0 <= before < vertex_count and before not in met, "an index that cannot be")
-        met.add(before)
-        output.append(before)
+        index = (output[leaders[v]] + 1 if v > 0 else 0) + n
+        require(0 <= index < vertex_count and index not in met, "an index that cannot be")
+        met.add(index)
+        output.append(index)
         which = min(19, symbol)
     section.check()
     return output

@@ -195,7 +195,7 @@ def decode_mesh(data, draco_command):
         require(not order, "an order where none is kept")
         output = list(range(header.vertex_count))
     elif header.flags & PLAIN:
-        output = decode_plain_order(order, header.vertex_count)
+        output = decode_plain_order(order, header.vertex_count, flat)
     else:
         output = decode_order(order, header.vertex_count, flat)
     faces = [[output[vertex[p]] for p in polygon] for polygon in parts.polygons]
