@@ -40,20 +40,24 @@ inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
   return b.whole ? (all + kRound) - kRound : all;
 }
 
-/// Classes by the expected magnitude, half an octave each.
-inline LanesU classify_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
+/// The mean magnitude in the ring, in 1/16; `other` where there is none.
+inline LanesU near_lanes(const LaneBlock& b, uint32_t row, uint32_t first, const LanesU& other) {
   const uint32_t* neighbour = elements(b.rows[row].neighbour);
   const uint32_t ring = b.rows[row].ring;
+  if (ring == 0) return other;
+  Lanes16 sum{};
+  for (uint32_t i = 0; i < ring; ++i)
+    sum += load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes + first);
+  return __builtin_convertvector(sum, LanesU) * (65536 / ring) >> 12;
+}
+
+/// Classes by the expected magnitude, half an octave each. A row's history tells more than its ring
+/// does, once there is any.
+inline LanesU classify_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
   const LanesU running = load<LanesU>(b.before + first) >> 4;
-  LanesU near = running;
-  if (ring > 0) {
-    Lanes16 sum{};
-    for (uint32_t i = 0; i < ring; ++i)
-      sum += load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes + first);
-    near = __builtin_convertvector(sum, LanesU) * (65536 / ring) >> 12;
-  }
-  const LanesU expected = b.history != nullptr ? (3 * near + 3 * running + 10 * b.history[row]) >> 4
-                                               : (10 * near + 6 * running) >> 4;
+  const LanesU expected = b.history != nullptr
+                              ? (6 * running + 10 * b.history[row]) >> 4
+                              : (10 * near_lanes(b, row, first, running) + 6 * running) >> 4;
   const LanesF size = __builtin_convertvector(reinterpret_cast<LanesI>(expected + 1), LanesF);
   const LanesU cls = (reinterpret_cast<LanesU>(size) >> 22) - 254;
   return cls < kRansClasses - 1 ? cls : LanesU{} + (kRansClasses - 1);

@@ -264,7 +264,7 @@ class LaneField:
         if block == 0:
             expected = (10 * near + 6 * mean) >> 4
         else:
-            expected = (3 * near + 3 * mean + 10 * self.history[r]) >> 4
+            expected = (6 * mean + 10 * self.history[r]) >> 4
         e = floor_log2(expected + 1)
         below = (expected + 1) >> (e - 1) & 1 if e > 0 else 0
         return min(19, 2 * e + below)
