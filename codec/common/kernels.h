@@ -33,10 +33,11 @@ struct alignas(64) WeightBatch {
 /// padding.
 using ObservePointsKernel = void (*)(WeightBatch&, const Lanes (*y)[3], const Lanes& inverse_noise);
 
-/// The same of one row as it is kept while others are solved: the matrix in strips of eight
-/// columns, rows 0 and on of columns 0 .. 7, then rows 8 and on of columns 8 .. 15.
+/// The same of one row as it is kept while others are solved: entry (i, j), j <= i, of the matrix
+/// is strip[i][j] for i < 8; for i >= 8, strip[i][j] left of column 8, strip[16][i - 8] on the
+/// diagonal, strip[15 - i][16 - i + j - 8] between them, which fills the rows above.
 struct alignas(64) RowEquations {
-  Lanes strip[kMaxNeighbours + kMaxNeighbours / 2];
+  Lanes strip[kMaxNeighbours + 1];
 };
 /// Their right sides, which are 0 where weights sum to one.
 using RowTarget = std::array<double, kMaxNeighbours>;

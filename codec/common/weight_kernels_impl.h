@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "codec/common/kernels.h"
 #include "codec/common/vector_load.h"
@@ -55,32 +56,40 @@ inline void transpose(const Vector* in, Vector* out) {
   }
 }
 
-/// Calls function(strip, i, j) for the strips of the matrix that are in use: row i, columns j and
-/// on.
+/// Calls function(k, entry) for the lanes k of a strip whose entries are of a matrix of n rows.
 template <class Function>
-inline void for_each_strip(uint32_t n, Function function) {
-  for (uint32_t i = 0; i < n; ++i) function(i, i, 0u);
-  for (uint32_t i = 8; i < n; ++i) function(i + 8, i, 8u);
+inline void for_each_entry(uint32_t strip, uint32_t n, Function function) {
+  for (uint32_t k = 0; k < 8; ++k) {
+    const bool upper = strip < 8 && k <= strip;
+    const uint32_t i = upper || (strip >= 8 && strip < 16) ? strip : strip < 8 ? 15 - strip : 8 + k;
+    const uint32_t j = upper || (strip >= 8 && strip < 16) ? k : strip < 8 ? 7 - strip + k : 8 + k;
+    if (i < n) function(k, packed(i, j));
+  }
 }
+
+/// The last strip in use, and one more.
+inline uint32_t strip_count(uint32_t n) { return n <= 8 ? 8 : kMaxNeighbours + 1; }
 
 void load_equations(WeightBatch& batch, const RowEquations* const rows[kLanes]) {
   Lanes in[8];
   Lanes out[8];
-  for_each_strip(batch.count, [&](uint32_t strip, uint32_t i, uint32_t j) {
+  for (uint32_t strip = 0; strip < strip_count(batch.count); ++strip) {
     for (uint32_t l = 0; l < kLanes; ++l) in[l] = rows[l]->strip[strip];
     transpose(in, out);
-    for (uint32_t k = j; k <= i && k < j + 8; ++k) batch.matrix[packed(i, k)] = out[k - j];
-  });
+    for_each_entry(strip, batch.count,
+                   [&](uint32_t k, uint32_t entry) { batch.matrix[entry] = out[k]; });
+  }
 }
 
 void store_equations(const WeightBatch& batch, RowEquations* const rows[kLanes]) {
-  Lanes in[8] = {};
+  Lanes in[8];
   Lanes out[8];
-  for_each_strip(batch.count, [&](uint32_t strip, uint32_t i, uint32_t j) {
-    for (uint32_t k = j; k <= i && k < j + 8; ++k) in[k - j] = batch.matrix[packed(i, k)];
+  for (uint32_t strip = 0; strip < strip_count(batch.count); ++strip) {
+    for_each_entry(strip, kMaxNeighbours,
+                   [&](uint32_t k, uint32_t entry) { in[k] = batch.matrix[entry]; });
     transpose(in, out);
     for (uint32_t l = 0; l < kLanes; ++l) rows[l]->strip[strip] = out[l];
-  });
+  }
 }
 
 /// What the neighbours of a row say of it, scaled y[observation][neighbour], and its own values.
@@ -113,25 +122,80 @@ inline void collect(const FoldTask& task, bool to_one, Said& said) {
   }
 }
 
-/// Adds to kRows strips, which are rows i and on of the columns j and on.
 constexpr uint32_t kRows = kFloats / 2;  // all sums stay in registers
-inline void add_outer(Lanes* strip, const FoldTask& task, const Said& said, uint32_t i,
-                      uint32_t j) {
-  Lanes sum[kRows];
-  for (uint32_t k = 0; k < kRows; ++k) sum[k] = strip[k];
+
+/// y[0], ..., y[k], then y[8], y[9], ...
+template <uint32_t k, uint32_t... l>
+inline Lanes columns_of_corner(Lanes low, Lanes high, std::integer_sequence<uint32_t, l...>) {
+  return __builtin_shufflevector(low, high, (l <= k ? l : 7 - k + l)...);
+}
+
+/// What strip k adds of one observation: the first k + 1 lanes are of row k, the others of row
+/// 15 - k.
+template <uint32_t k>
+inline Lanes corner(const double* y, Lanes low, Lanes high) {
+  using Mask = int64_t __attribute__((vector_size(sizeof(Lanes))));
+  constexpr Mask kOfRow = {-1,
+                           k > 0 ? -1 : 0,
+                           k > 1 ? -1 : 0,
+                           k > 2 ? -1 : 0,
+                           k > 3 ? -1 : 0,
+                           k > 4 ? -1 : 0,
+                           k > 5 ? -1 : 0,
+                           k > 6 ? -1 : 0};
+  const Lanes row = kOfRow ? Lanes{} + y[k] : Lanes{} + y[15 - k];
+  return row * columns_of_corner<k>(low, high, std::make_integer_sequence<uint32_t, 8>());
+}
+
+/// Adds to the strips `first` and on, of the first eight.
+template <uint32_t first, uint32_t... k>
+inline void add_corners(Lanes* strip, const FoldTask& task, const Said& said,
+                        std::integer_sequence<uint32_t, k...>) {
+  Lanes sum[] = {strip[first + k]...};
   for (uint32_t o = task.begin; o < task.end; ++o) {
-    Lanes y;
-    std::memcpy(&y, &said.y[o][j], sizeof y);
+    const double* y = said.y[o];
+    const auto low = load<Lanes>(y);
+    const auto high = load<Lanes>(y + 8);
+    ((sum[k] += corner<first + k>(y, low, high)), ...);
+  }
+  ((strip[first + k] = sum[k]), ...);
+}
+
+template <uint32_t first = 0>
+inline void add_all_corners(Lanes* strip, const FoldTask& task, const Said& said) {
+  if constexpr (first < 8) {
+    add_corners<first>(strip, task, said, std::make_integer_sequence<uint32_t, kRows>());
+    add_all_corners<first + kRows>(strip, task, said);
+  }
+}
+
+/// Adds to kRows strips of the next eight: rows i and on, columns 0 .. 7.
+inline void add_square(Lanes* strip, const FoldTask& task, const Said& said, uint32_t i) {
+  Lanes sum[kRows];
+  for (uint32_t k = 0; k < kRows; ++k) sum[k] = strip[i + k];
+  for (uint32_t o = task.begin; o < task.end; ++o) {
+    const auto y = load<Lanes>(said.y[o]);
     for (uint32_t k = 0; k < kRows; ++k) sum[k] += said.y[o][i + k] * y;
   }
-  for (uint32_t k = 0; k < kRows; ++k) strip[k] = sum[k];
+  for (uint32_t k = 0; k < kRows; ++k) strip[i + k] = sum[k];
+}
+
+/// Adds to the last strip.
+inline void add_diagonal(Lanes* strip, const FoldTask& task, const Said& said) {
+  for (uint32_t o = task.begin; o < task.end; ++o) {
+    const auto y = load<Lanes>(said.y[o] + 8);
+    strip[kMaxNeighbours] += y * y;
+  }
 }
 
 void fold(RowEquations& row, double* target, const FoldTask& task) {
   Said said;
   collect(task, target == nullptr, said);
-  for (uint32_t i = 0; i < task.count; i += kRows) add_outer(&row.strip[i], task, said, i, 0);
-  for (uint32_t i = 8; i < task.count; i += kRows) add_outer(&row.strip[i + 8], task, said, i, 8);
+  add_all_corners(row.strip, task, said);
+  if (task.count > 8) {
+    for (uint32_t i = 8; i < kMaxNeighbours; i += kRows) add_square(row.strip, task, said, i);
+    add_diagonal(row.strip, task, said);
+  }
   if (target == nullptr) return;
   for (uint32_t o = task.begin; o < task.end; ++o) {
     for (uint32_t i = 0; i < kMaxNeighbours; ++i)
