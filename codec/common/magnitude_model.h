@@ -38,13 +38,15 @@ class MagnitudeModel {
   static constexpr int kTables = 4;
   using Mixer = BitMixer<kTables, ShortBit>;
 
-  /// Where next to nothing is expected, whether it is 0 is one adaptive bit, by thirds of the
-  /// bound; else, and beyond, bits are mixed.
-  static constexpr uint32_t kCalmClasses = 3;
+  /// Where little is expected, whether it is 0 is one adaptive bit, by how much is expected; else,
+  /// and beyond, bits are mixed.
+  static constexpr uint32_t kCalmClasses = 4;
   static uint32_t calm_class(const Surroundings& s) {
     const uint32_t expected = s.expected();
-    const uint32_t third = s.step >> 8;
-    return (expected >= third) + (expected >= 2 * third) + (expected >= 3 * third);
+    const uint32_t unit = s.step >> 8;
+    uint32_t out = 0;
+    for (uint32_t c = 1; c <= kCalmClasses; ++c) out += expected >= c * unit ? 1 : 0;
+    return out;
   }
 
   /// Table entries that the surroundings choose.

@@ -50,9 +50,8 @@ class Surroundings:
 
     def calm_class(self):
         """None where the row is not calm."""
-        third = self.step >> 8
-        c = sum(self.expected() >= i * third for i in (1, 2, 3))
-        return c if c < 3 else None
+        c = self.expected() // (self.step >> 8)
+        return c if c < 4 else None
 
 
 class Contexts:
@@ -83,7 +82,7 @@ class ResidualDecoder:
             self.mixer, self.calm, self.escape = before.mixer, before.calm, before.escape
             return
         self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS, 40, ShortBit)
-        self.calm = adaptive_bits(3)
+        self.calm = adaptive_bits(4)
         self.escape = [adaptive_bits(55) for _ in range(8)]
 
     def decode(self, surroundings):
