@@ -100,8 +100,11 @@ struct Said {
 
 inline void collect(const FoldTask& task, bool to_one, Said& said) {
   for (uint32_t o = task.begin / 8 * 8; o < task.end; o += 8) {
+    // Mostly but a few of the eight are asked for.
+    const uint32_t first = task.begin > o ? task.begin - o : 0;
+    const uint32_t last = task.end < o + 8 ? task.end - o : 8;
     const Floats8 self = load<Floats8>(task.values + size_t{task.row} * kObservations + o);
-    for (uint32_t k = 0; k < 8; ++k) said.self[o + k] = static_cast<double>(self[k]);
+    for (uint32_t k = first; k < last; ++k) said.self[o + k] = static_cast<double>(self[k]);
     const Floats8 padding = to_one ? self : Floats8{};
     for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
       Floats8 in[8];
@@ -113,7 +116,7 @@ inline void collect(const FoldTask& task, bool to_one, Said& said) {
                     : padding;
       }
       transpose(in, out);
-      for (uint32_t k = 0; k < 8; ++k) {
+      for (uint32_t k = first; k < last; ++k) {
         const Lanes value = __builtin_convertvector(out[k], Lanes);
         const Lanes y = (to_one ? value - said.self[o + k] : value) * task.scale[o + k];
         std::memcpy(&said.y[o + k][i], &y, sizeof y);
