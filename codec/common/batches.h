@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <utility>
 #include <vector>
+
+#include "codec/common/raw_vector.h"
 
 namespace reeb {
 
@@ -31,21 +32,13 @@ struct AligningAllocator {
     reinterpret_cast<void**>(begin)[-1] = block;
     return reinterpret_cast<T*>(begin);
   }
-  /// Elements that no value is given for stay as memory comes.
-  template <class U>
-  void construct(U* at) {
-    ::new (static_cast<void*>(at)) U;
-  }
-  template <class U, class... Values>
-  void construct(U* at, Values&&... values) {
-    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
-  }
   void deallocate(T* begin, size_t) { ::operator delete(reinterpret_cast<void**>(begin)[-1]); }
 
   friend bool operator==(AligningAllocator, AligningAllocator) { return true; }
 };
 
+/// Elements are not set to zero.
 template <class Batch>
-using BatchVector = std::vector<Batch, AligningAllocator<Batch>>;
+using BatchVector = std::vector<Batch, RawAllocator<Batch, AligningAllocator>>;
 
 }  // namespace reeb

@@ -7,14 +7,15 @@
 
 namespace reeb {
 
-template <class T>
-struct RawAllocator : std::allocator<T> {
+/// `Memory` gives the memory. Elements that no value is given for stay as it comes, but for members
+/// with initialisers.
+template <class T, template <class> class Memory = std::allocator>
+struct RawAllocator : Memory<T> {
   template <class U>
   struct rebind {
-    using other = RawAllocator<U>;
+    using other = RawAllocator<U, Memory>;
   };
 
-  /// Elements that no value is given for stay as memory comes, but for members with initialisers.
   template <class U>
   void construct(U* at) {
     ::new (static_cast<void*>(at)) U;

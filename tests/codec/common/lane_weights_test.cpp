@@ -7,24 +7,10 @@
 #include <random>
 
 #include "codec/common/contraction.h"
-#include "codec/common/kernels.h"
 #include "codec/common/lane_field.h"
 #include "codec/enc/lane_field_encoder.h"
+#include "tests/codec/kernel_sets.h"
 #include "tests/codec/shapes.h"
-
-namespace reeb {
-namespace base_kernel {
-extern const Kernels kKernels;
-}
-#ifdef __x86_64__
-namespace avx2_kernel {
-extern const Kernels kKernels;
-}
-namespace avx512_kernel {
-extern const Kernels kKernels;
-}
-#endif
-}  // namespace reeb
 
 using namespace reeb;
 using namespace reeb::test;
@@ -192,7 +178,7 @@ TEST_CASE("only the rows that are asked for get new weights", "[lane_weights]") 
 TEST_CASE("every instruction set finds the same weights of lanes", "[lane_weights]") {
   for (const float size : {9.0f, 1e8f, 1e25f}) {  // the last one is beyond what binary32 can square
     const Fixture f(torus(16, 11), size);
-    const std::vector<float> base = run_kernel(base_kernel::kKernels, f);
+    const std::vector<float> base = run_kernel(kernel_sets()[0], f);
     const auto same = [&](const std::vector<float>& other) {
       for (size_t i = 0; i < base.size(); ++i) {
         const bool both_none = std::isnan(base[i]) && std::isnan(other[i]);
@@ -200,11 +186,7 @@ TEST_CASE("every instruction set finds the same weights of lanes", "[lane_weight
       }
       return true;
     };
-    CHECK(same(run_kernel(fastest_kernels(), f)));
-#ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2")) CHECK(same(run_kernel(avx2_kernel::kKernels, f)));
-    if (__builtin_cpu_supports("avx512vnni")) CHECK(same(run_kernel(avx512_kernel::kKernels, f)));
-#endif
+    for (const Kernels& kernels : kernel_sets()) CHECK(same(run_kernel(kernels, f)));
   }
 }
 

@@ -8,22 +8,8 @@
 #include <cstring>
 #include <random>
 
-#include "codec/common/kernels.h"
+#include "tests/codec/kernel_sets.h"
 #include "tests/codec/shapes.h"
-
-namespace reeb {
-namespace base_kernel {
-extern const Kernels kKernels;
-}
-#ifdef __x86_64__
-namespace avx2_kernel {
-extern const Kernels kKernels;
-}
-namespace avx512_kernel {
-extern const Kernels kKernels;
-}
-#endif
-}  // namespace reeb
 
 using namespace reeb;
 using namespace reeb::test;
@@ -215,14 +201,9 @@ TEST_CASE("weights do not depend on the number of threads", "[weights]") {
 TEST_CASE("every instruction set gives the same bits", "[weights]") {
   const Fixture f(torus(16, 11));
   for (const bool sum_to_one : {false, true}) {
-    const std::vector<float> base = run_kernels(base_kernel::kKernels, f, sum_to_one);
-    CHECK(same_bits(base, run_kernels(fastest_kernels(), f, sum_to_one)));
-#ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2"))
-      CHECK(same_bits(base, run_kernels(avx2_kernel::kKernels, f, sum_to_one)));
-    if (__builtin_cpu_supports("avx512f"))
-      CHECK(same_bits(base, run_kernels(avx512_kernel::kKernels, f, sum_to_one)));
-#endif
+    const std::vector<float> base = run_kernels(kernel_sets()[0], f, sum_to_one);
+    for (const Kernels& kernels : kernel_sets())
+      CHECK(same_bits(base, run_kernels(kernels, f, sum_to_one)));
   }
 }
 
