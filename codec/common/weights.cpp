@@ -60,29 +60,6 @@ void prefetch(const RowEquations& row) {
   for (size_t at = 0; at < sizeof row; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
 }
 
-/// Weights of all rows from the reference, eight rows at a time. `done(batch, rows)` sees the
-/// equations of each eight.
-template <class Done>
-void solve_reference(const PredictionGraph& graph, const WeightOptions& options,
-                     const GridPoints& points, const std::vector<uint32_t>& order,
-                     const Kernels& kernels, std::vector<float>& weights, Done&& done) {
-  float dropped[kMaxNeighbours];
-  for (uint32_t first = 0; first < graph.size(); first += kLanes) {
-    WeightBatch batch{};
-    uint32_t rows[kLanes];
-    float* out[kLanes];
-    for (uint32_t l = 0; l < kLanes; ++l) {
-      // Lanes past the end repeat the last row.
-      rows[l] = std::min(first + l, graph.size() - 1);
-      out[l] = first + l == rows[l] ? &weights[size_t{rows[l]} * kMaxNeighbours] : dropped;
-    }
-    init_batch(batch, rows, graph, options);
-    observe_batch(graph, points, order, rows, kernels, batch);
-    kernels.solve(batch, options.sum_to_one, out);
-    done(batch, rows);
-  }
-}
-
 }  // namespace
 
 WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptions& options,
@@ -99,15 +76,24 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
   equations_.resize(graph_.size());
-  const auto keep = [&](const WeightBatch& batch, const uint32_t rows[kLanes]) {
+  float dropped[kMaxNeighbours];
+  for (uint32_t first = 0; first < graph_.size(); first += kLanes) {
+    WeightBatch batch{};
+    uint32_t rows[kLanes];
+    float* out[kLanes];
     RowEquations* equations[kLanes];
     for (uint32_t l = 0; l < kLanes; ++l) {
+      // Lanes past the end repeat the last row.
+      rows[l] = std::min(first + l, graph_.size() - 1);
+      out[l] = first + l == rows[l] ? &weights_[size_t{rows[l]} * kMaxNeighbours] : dropped;
       equations[l] = &equations_[rows[l]];
       *equations[l] = {};
     }
+    init_batch(batch, rows, graph_, options_);
+    observe_batch(graph_, points, order, rows, kernels_, batch);
+    kernels_.solve(batch, options_.sum_to_one, out);
     kernels_.store_equations(batch, equations);
-  };
-  solve_reference(graph_, options_, points, order, kernels_, weights_, keep);
+  }
   std::fill(misses_.begin(), misses_.end(), uint8_t{0});
 }
 

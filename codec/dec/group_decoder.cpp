@@ -145,8 +145,8 @@ Status coefficient_status(bool whole, const StopToken& stop) {
 }
 
 /// The planes of the coefficient section, fast profile.
-Status decode_fixed_planes(const GroupChunk& chunk, const DecodedSurface& surface,
-                           const StopToken& stop, std::vector<std::vector<float>>& planes) {
+Status decode_lane_planes(const GroupChunk& chunk, const DecodedSurface& surface,
+                          const StopToken& stop, std::vector<std::vector<float>>& planes) {
   LaneStart own;  // of a mesh that is not plain
   if (surface.lanes.empty()) own = lane_start(surface.surface, GridPoints(surface.grid));
   LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own);
@@ -187,7 +187,7 @@ Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsi
   if (Status s = decode_motion(chunk, surface, motion); !s.ok()) return s;
   std::vector<std::vector<float>> planes;
   if (Status s = header.profile == Profile::kFast
-                     ? decode_fixed_planes(chunk, surface, stop, planes)
+                     ? decode_lane_planes(chunk, surface, stop, planes)
                      : decode_planes(chunk, surface, threads, keep, stop, state, planes);
       !s.ok())
     return s;

@@ -12,7 +12,7 @@ namespace {
 
 /// Of weights, graph and contexts of a field while it is decoded.
 constexpr uint64_t kBytesPerRow = 2600;
-constexpr uint64_t kFastBytesPerRow = 800;  ///< whose weights are not learned
+constexpr uint64_t kFastBytesPerRow = 800;  ///< whose equations are not kept
 /// Of a reference mesh while it is decoded, without what Draco takes.
 constexpr uint64_t kMeshBytesPerVertex = 720, kMeshBytesPerFace = 80;
 

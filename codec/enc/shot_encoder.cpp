@@ -103,7 +103,7 @@ Status ShotEncoder::set_grid_bits(uint32_t bits) {
   } else {
     SurfaceContext surface;
     const ReferenceOptions options{
-        .reorder = reorder_, .plain = plain_, .fixed_weights = profile_ == Profile::kFast};
+        .reorder = reorder_, .plain = plain_, .lanes = profile_ == Profile::kFast};
     if (Status s = make_surface_context(shot_, plan_, allowed, options, surface); !s.ok()) return s;
     spare_ = std::exchange(surface_, std::move(surface));
     spare_bits_ = std::exchange(grid_bits_, allowed);

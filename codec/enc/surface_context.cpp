@@ -57,7 +57,7 @@ Status make_surface_context(const Shot& shot, ReferencePlan& plan, uint32_t bits
     out.input[row] = out.input_of[out.surface.order[row]];
     out.row_of[out.input[row]] = row;
   }
-  if (options.fixed_weights) out.lanes = lane_start(out.surface, out.points());
+  if (options.lanes) out.lanes = lane_start(out.surface, out.points());
   return {};
 }
 

@@ -25,7 +25,7 @@ struct Group {
         plan(shot.connectivity),
         encoder(make_group_encoder(make_group_signal(shot, 0, 24), profile, 1)) {
     const bool fast = profile == Profile::kFast;
-    const ReferenceOptions options{.plain = fast, .fixed_weights = fast};
+    const ReferenceOptions options{.plain = fast, .lanes = fast};
     REQUIRE(make_surface_context(shot, plan, 12, options, surface).ok());
   }
   CodedGroup encode(double q) {
