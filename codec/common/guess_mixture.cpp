@@ -5,47 +5,52 @@
 
 namespace reeb {
 
+// From entry kBlock - 1 - i on, all bits are set in those of the following kBlock whose number is
+// above i.
+constexpr std::array<uint32_t, 2 * ErrorModel::kBlock> ErrorModel::kAfter = [] {
+  std::array<uint32_t, 2 * kBlock> masks{};
+  std::fill(masks.begin() + kBlock, masks.end(), UINT32_MAX);
+  return masks;
+}();
+
 // Near errors are likelier at first, by 1/16 from bucket to bucket.
 ErrorModel::ErrorModel() : seen_(4 * kUnit), scale_((uint64_t{1} << 32) / seen_) {
   constexpr uint32_t kInnerBuckets = 8;  // of one step each
-  Weights weights;
   uint32_t weight = kUnit / 16;
   for (uint32_t b = 0; b < kBuckets; ++b) {
     if (b >= kInnerBuckets) weight = std::max(weight - weight / 16, 1u);
-    weights[b] = weight;
+    for (Side& side : sides_) side.weights[b] = weight << 8;
   }
-  for (Side& side : sides_) side.sum_up(weights);
+  for (Side& side : sides_) side.sum_up();
 }
 
-void ErrorModel::Side::add(uint32_t bucket, uint32_t share) {
+void ErrorModel::Side::add(uint32_t bucket, uint32_t weight) {
   // Of fixed length, for vector units.
   const uint32_t block = bucket / kBlock;
-  for (uint32_t i = 0; i < kBlock; ++i) inner[block][i + 1] += i >= bucket % kBlock ? share : 0;
-  for (uint32_t k = 0; k < kBlocks; ++k) blocks[k] += k > block ? share : 0;
+  uint32_t* const inner = &before[block * kBlock];
+  const uint32_t* const after = &kAfter[kBlock - 1 - bucket % kBlock];
+  for (uint32_t i = 0; i < kBlock; ++i) inner[i] += after[i] & weight;
+  const uint32_t* const blocks_after = &kAfter[kBlock - 1 - block];
+  for (uint32_t k = 0; k < blocks.size(); ++k) blocks[k] += blocks_after[k] & weight;
+  weights[bucket] += weight;
 }
 
-void ErrorModel::Side::sum_up(const Weights& weights) {
+void ErrorModel::Side::sum_up() {
   uint32_t all = 0;
   for (uint32_t k = 0; k < kBlocks; ++k) {
     blocks[k] = all;
-    inner[k][0] = 0;
-    for (uint32_t i = 0; i < kBlock; ++i) inner[k][i + 1] = inner[k][i] + weights[k * kBlock + i];
-    all += inner[k][kBlock];
+    uint32_t sum = 0;
+    for (uint32_t b = k * kBlock; b < (k + 1) * kBlock; ++b) {
+      before[b] = sum;
+      sum += weights[b];
+    }
+    all += sum;
   }
-}
-
-ErrorModel::Weights ErrorModel::Side::weights() const {
-  Weights out;
-  for (uint32_t b = 0; b < kBuckets; ++b) {
-    const uint32_t* const at = &inner[b / kBlock][b % kBlock];
-    out[b] = at[1] - at[0];
-  }
-  return out;
 }
 
 void ErrorModel::observe(int64_t error, uint32_t share, uint32_t memory) {
   const auto size = static_cast<uint64_t>(error < 0 ? -error - 1 : error);
-  if (share > 0) sides_[error < 0].add(bucket_of(size).index, share);
+  if (share > 0) sides_[error < 0].add(bucket_of(size).index, share << 8);
   seen_ += kUnit;
   if (seen_ > memory * kUnit) halve();
   scale_ = (uint64_t{1} << 32) / seen_;
@@ -54,9 +59,8 @@ void ErrorModel::observe(int64_t error, uint32_t share, uint32_t memory) {
 void ErrorModel::halve() {
   seen_ /= 2;
   for (Side& side : sides_) {
-    Weights weights = side.weights();
-    for (uint32_t& w : weights) w -= w / 2;
-    side.sum_up(weights);
+    for (uint32_t& w : side.weights) w -= w >> 9 << 8;
+    side.sum_up();
   }
 }
 

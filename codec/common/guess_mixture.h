@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "entropy/range_coder.h"
@@ -22,34 +23,47 @@ class ErrorModel {
   static constexpr uint32_t kUnit = 1 << 12;  ///< one observation
 
   ErrorModel();
-  /// Weight of the errors from 0 to `error`, negative where `error` is; at most 2^40.
-  int64_t weight_to(int64_t error) const;
+  /// What looking up takes, until the model learns.
+  class Reader;
+  Reader reader() const;
   /// Learns that a guess of this kind was there and explains `share` (0 .. kUnit) of a truth at
-  /// `error`. Beyond `memory` observations (up to 4096) all are halved.
+  /// `error`. Beyond `memory` observations (up to 2048) all are halved.
   void observe(int64_t error, uint32_t share, uint32_t memory);
 
  private:
   static constexpr uint32_t kBlock = 16;
   static constexpr uint32_t kBlocks = 9;
   static constexpr uint32_t kBuckets = kBlock * kBlocks;
-  using Weights = std::array<uint32_t, kBuckets>;
+  static const std::array<uint32_t, 2 * kBlock> kAfter;
 
-  /// Errors of one sign, summed up at two levels, so that both looking up and adding are quick.
+  /// Weights of the errors of one sign, in 1/256, summed up at two levels, so that both looking up
+  /// and adding are quick.
   struct Side {
-    std::array<uint32_t, kBlocks> blocks;                         // all blocks before
-    std::array<std::array<uint32_t, kBlock + 1>, kBlocks> inner;  // before each bucket of a block
-    void add(uint32_t bucket, uint32_t share);
-    void sum_up(const Weights& weights);
-    Weights weights() const;
+    std::array<uint32_t, kBlocks + 3> blocks;  // all blocks before; some more to fill up vectors
+    std::array<uint32_t, kBuckets> before;     // the buckets before of the same block
+    std::array<uint32_t, kBuckets> weights;
+    void add(uint32_t bucket, uint32_t weight);
+    void sum_up();
+    /// From 0 to an error of `size`, < 2^41.
+    uint64_t weight_to(uint64_t size) const {
+      const Bucket b = bucket_of(size);
+      const uint64_t beyond = size ^ b.start;
+      const uint64_t part = beyond * weights[b.index] >> b.width_log2;
+      return blocks[b.index / kBlock] + before[b.index] + part;
+    }
   };
   struct Bucket {
     uint32_t index;
     uint32_t width_log2;
+    uint64_t start;  // a multiple of the width
   };
-  /// Bucket of an error without its sign, < 2^41; it begins at a multiple of its width.
+  /// Bucket of an error without its sign.
   static Bucket bucket_of(uint64_t error) {
-    const uint32_t width_log2 = static_cast<uint32_t>(std::bit_width(error | 64)) - 3;
-    return {4 * (width_log2 - 4) + static_cast<uint32_t>(error >> width_log2), width_log2};
+    // Written so that it is what processors have.
+    const uint32_t highest_bit = 63 ^ static_cast<uint32_t>(std::countl_zero(error | 64));
+    const uint32_t width_log2 = highest_bit - 2;
+    const uint64_t widths = error >> width_log2;
+    return {4 * highest_bit + static_cast<uint32_t>(widths) - 24, width_log2, widths << width_log2};
   }
   void halve();
 
@@ -58,19 +72,25 @@ class ErrorModel {
   uint64_t scale_ = 0;
 };
 
-inline int64_t ErrorModel::weight_to(int64_t error) const {
-  const int64_t sign = error >> 63;  // -1 or 0: no branch, which nobody could foresee
-  const auto size = static_cast<uint64_t>((error ^ sign) - sign);
-  const Bucket b = bucket_of(size);
-  const Side& side = sides_[sign & 1];
-  const uint32_t block = b.index / kBlock;
-  const uint32_t* const inner = &side.inner[block][b.index % kBlock];
-  const uint64_t beyond = size & ((uint64_t{1} << b.width_log2) - 1);
-  const uint64_t part = (beyond * (uint64_t{inner[1] - inner[0]} << 8)) >> b.width_log2;
-  const uint64_t before = side.blocks[block] + inner[0];
-  const auto weight = static_cast<int64_t>(((before << 8) + part) * scale_);
-  return (weight ^ sign) - sign;
-}
+class ErrorModel::Reader {
+ public:
+  /// Weight of the errors from 0 to `error`, negative where `error` is; at most 2^40.
+  int64_t weight_to(int64_t error) const {
+    const int64_t sign = error >> 63;  // -1 or 0: no branch, which nobody could foresee
+    const auto size = static_cast<uint64_t>((error ^ sign) - sign);
+    const auto weight = static_cast<int64_t>(sides_[sign & 1]->weight_to(size) * scale_);
+    return (weight ^ sign) - sign;
+  }
+
+ private:
+  friend class ErrorModel;
+  explicit Reader(const ErrorModel& m) : sides_{&m.sides_[0], &m.sides_[1]}, scale_(m.scale_) {}
+
+  const Side* sides_[2];
+  uint64_t scale_;
+};
+
+inline ErrorModel::Reader ErrorModel::reader() const { return Reader(*this); }
 
 /// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
 class GuessMixture {
@@ -82,7 +102,8 @@ class GuessMixture {
   /// `place` in 1/256; one step of the error model is 1/8 of `scale`, which is in 1/256 too, 1 ..
   /// 2^24.
   void add(uint32_t kind, int64_t place, uint32_t scale) {
-    guesses_.push_back({&models_[kind], place, (int64_t{1} << 23) / scale});
+    ErrorModel& model = models_[kind];
+    guesses_.push_back({model.reader(), place, int64_t{(1u << 23) / scale}, &model});
   }
 
   /// Codes `value` in 0 .. count-1 and learns it. The guesses see value v as the interval [v, v+1).
@@ -90,7 +111,11 @@ class GuessMixture {
   /// 0) beyond until the value is passed, then in halves.
   template <class Coder>
   uint32_t code(Coder& coder, uint32_t value, uint32_t count, uint32_t likely, uint64_t reach) {
-    for (auto* weights : {&low_, &high_, &split_}) weights->resize(guesses_.size());
+    const size_t size = guesses_.size();
+    weights_.resize(std::max(weights_.size(), 3 * size));
+    low_ = weights_.data();
+    high_ = low_ + size;
+    split_ = high_ + size;
     Range r = {0, count, weigh(0, low_), weigh(count, high_)};
     const bool up = likely == 0 || narrow(coder, value, likely, r);
     bool passed = false;
@@ -116,14 +141,15 @@ class GuessMixture {
     const bool up = coder.code(value >= split, probability(r.high - weight, r.high - r.low));
     (up ? r.first : r.last) = split;
     (up ? r.low : r.high) = weight;
-    (up ? low_ : high_).swap(split_);
+    std::swap(up ? low_ : high_, split_);
     return up;
   }
 
   struct Guess {
-    ErrorModel* model;
+    ErrorModel::Reader reader;
     int64_t place;
     int64_t gain;  // steps of the error model per unit of distance
+    ErrorModel* model;
     /// Of `value` plus `part` / 256.
     int64_t error(uint32_t value, int64_t part = 0) const {
       return ((static_cast<int64_t>(value) << 8) + part - place) * gain >> 16;
@@ -133,11 +159,12 @@ class GuessMixture {
   static Probability probability(int64_t part, int64_t whole);
   /// Weight of all values below `value`, up to a constant, by guess and in all; rises by at least
   /// kFloor per value.
-  int64_t weigh(uint32_t value, std::vector<int64_t>& by_guess) const {
+  int64_t weigh(uint32_t value, int64_t* by_guess) const {
     int64_t sum = kFloor * value;
-    for (size_t i = 0; i < guesses_.size(); ++i) {
-      by_guess[i] = guesses_[i].model->weight_to(guesses_[i].error(value));
-      sum += by_guess[i];
+    for (const Guess& guess : guesses_) {
+      const int64_t weight = guess.reader.weight_to(guess.error(value));
+      *by_guess++ = weight;
+      sum += weight;
     }
     return sum;
   }
@@ -148,7 +175,9 @@ class GuessMixture {
   uint32_t memory_;
   std::vector<Guess> guesses_;
   std::vector<ErrorModel> models_;
-  std::vector<int64_t> low_, high_, split_;  // weights by guess below the bounds of the range
+  std::vector<int64_t> weights_;              // room for the next three
+  int64_t *low_ = nullptr, *high_ = nullptr;  // weights by guess below the bounds of the range
+  int64_t* split_ = nullptr;                  // the same below the split
 };
 
 }  // namespace reeb

@@ -52,7 +52,9 @@ class Waiting {
 };
 
 int64_t to_fixed(double x) {
-  return static_cast<int64_t>(std::floor(std::clamp(x, -1e6, 1e6) * 256 + 0.5));
+  const double rounded = std::clamp(x, -1e6, 1e6) * 256 + 0.5;
+  const auto toward_zero = static_cast<int64_t>(rounded);
+  return toward_zero - (static_cast<double>(toward_zero) > rounded ? 1 : 0);
 }
 
 void add_guess(uint32_t kind, double place, double scale, GuessMixture& out) {

@@ -95,13 +95,14 @@ TEST_CASE("weights of an error model rise with the error and stay whole", "[gues
     const auto share = static_cast<uint32_t>(random() % (ErrorModel::kUnit + 1));
     model.observe(static_cast<int64_t>(random() % 4000) - 1500, share, 100);
   }
-  int64_t last = model.weight_to(-(int64_t{1} << 40));
+  int64_t last = model.reader().weight_to(-(int64_t{1} << 40));
   for (int64_t error = -5000; error <= 5000; ++error) {
-    const int64_t weight = model.weight_to(error);
+    const int64_t weight = model.reader().weight_to(error);
     REQUIRE(weight >= last);
     last = weight;
   }
-  CHECK(model.weight_to(0) == 0);
-  CHECK(model.weight_to(int64_t{1} << 40) - model.weight_to(-(int64_t{1} << 40)) <=
+  CHECK(model.reader().weight_to(0) == 0);
+  CHECK(model.reader().weight_to(int64_t{1} << 40) -
+            model.reader().weight_to(-(int64_t{1} << 40)) <=
         (int64_t{1} << 40) + (int64_t{1} << 32));
 }
