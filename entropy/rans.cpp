@@ -1,6 +1,8 @@
 #include "entropy/rans.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <numeric>
 
 #include "entropy/integer_coder.h"
@@ -13,7 +15,9 @@ constexpr uint32_t kWhole = 1u << kRansBits;
 constexpr uint32_t kLowest = 1u << 16;  // states are kept at or above
 
 /// Syntax of the frequencies, for both directions: classes one after another, each the number of
-/// its symbols, then all frequencies but that of the first symbol, which is what they leave.
+/// its symbols, how coarse the frequencies are, then all of them but that of the first symbol,
+/// which is what they leave. A frequency is near that of the symbol of the other sign, those of the
+/// symbols before and those of the class before, which tell its context.
 class TableSyntax {
  public:
   template <class Coder>
@@ -22,23 +26,61 @@ class TableSyntax {
       const auto last = std::find_if(f.rbegin(), f.rend(), [](uint16_t x) { return x > 0; });
       const uint32_t count = count_.code(coder, static_cast<uint32_t>(f.rend() - last));
       if (count > kRansSymbols) return false;
-      uint32_t sum = 0;
-      for (uint32_t s = 1; s < count; ++s) {
-        const uint32_t frequency = frequency_[std::min(s, kModels - 1)].code(coder, f[s]);
-        if (frequency > kWhole - sum) return false;
-        f[s] = static_cast<uint16_t>(frequency);
-        sum += frequency;
-      }
-      if (count > 0) f[0] = static_cast<uint16_t>(kWhole - sum);
+      if (count > 0 && !code_class(coder, count, f)) return false;
     }
     return true;
   }
 
  private:
-  static constexpr uint32_t kModels = 24;
-  ExpGolombModel count_;
-  std::array<ExpGolombModel, kModels> frequency_;
+  template <class Coder>
+  bool code_class(Coder& coder, uint32_t count, RansFrequencies& f) {
+    const uint32_t shift = shift_.code(coder, shift_of(f));
+    if (shift >= kRansBits) return false;
+    uint32_t sum = 0;
+    for (uint32_t s = 1; s < count; ++s) {
+      const uint32_t places = (expected(f, s) + (1u << shift) - 1) >> shift;
+      ExpGolombModel& model = place_[s % 2][std::bit_width(places)];
+      const uint32_t place = model.code(coder, f[s] == 0 ? 0 : ((f[s] - 1u) >> shift) + 1);
+      if (place > kWhole) return false;
+      const uint32_t frequency = place == 0 ? 0 : ((place - 1) << shift) + 1;
+      if (frequency > kWhole - sum) return false;
+      f[s] = static_cast<uint16_t>(frequency);
+      sum += frequency;
+    }
+    f[0] = static_cast<uint16_t>(kWhole - sum);
+    before_ = f;
+    return true;
+  }
+
+  /// The frequencies of a class, but for the first, are 0 or a multiple of 2^shift plus 1.
+  static uint32_t shift_of(const RansFrequencies& f) {
+    uint32_t bits = kWhole / 2;
+    for (uint32_t s = 1; s < kRansSymbols; ++s) bits |= f[s] == 0 ? 0 : f[s] - 1u;
+    return static_cast<uint32_t>(std::countr_zero(bits));
+  }
+
+  /// What frequency s is likely to be, from those before it.
+  uint32_t expected(const RansFrequencies& f, uint32_t s) const {
+    if (s % 2 == 0) return (3u * f[s - 1] + before_[s]) / 4;
+    const uint32_t same = (before_[s] + before_[s + 1] + 0u) / 2;
+    return s == 1 ? same : ((f[s - 2] + f[s - 1] + 0u) / 2 + same) / 2;
+  }
+
+  ExpGolombModel count_, shift_;
+  std::array<std::array<ExpGolombModel, kRansBits + 2>, 2> place_;
+  RansFrequencies before_{};
 };
+
+/// About how many bits the class takes with these frequencies, its part of the tables included.
+double class_bits(const RansCounts& counts, const RansFrequencies& f, uint32_t shift) {
+  double bits = 0;
+  for (uint32_t s = 0; s < kRansSymbols; ++s) {
+    if (counts[s] == 0) continue;
+    bits -= counts[s] * std::log2(static_cast<double>(f[s]) / kWhole);
+    if (s > 0) bits += 2 + std::log2(((f[s] - 1u) >> shift) + 1);
+  }
+  return bits;
+}
 
 void append_u32(std::vector<uint8_t>& out, uint32_t x) {
   for (int i = 0; i < 4; ++i) out.push_back(static_cast<uint8_t>(x >> (8 * i)));
@@ -50,7 +92,7 @@ uint32_t read_u32(const uint8_t* at) {
 
 }  // namespace
 
-RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& counts) {
+RansFrequencies rans_frequencies(const RansCounts& counts) {
   const uint64_t all = std::accumulate(counts.begin(), counts.end(), uint64_t{0});
   RansFrequencies out{};
   if (all == 0) return out;
@@ -66,11 +108,41 @@ RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& count
   return out;
 }
 
+void coarsen(uint32_t shift, RansFrequencies& f) {
+  const bool zero_occurs = f[0] > 0;
+  uint32_t sum = 0;
+  for (uint32_t s = 1; s < kRansSymbols; ++s) {
+    if (f[s] == 0) continue;
+    const uint32_t place = (f[s] - 1u + (1u << shift) / 2) >> shift;
+    f[s] = static_cast<uint16_t>((place << shift) + 1);
+    sum += f[s];
+  }
+  const uint32_t most = zero_occurs ? kWhole - 1 : kWhole;
+  for (; sum > most; sum -= 1u << shift) {
+    uint16_t& largest = *std::max_element(f.begin() + 1, f.end());
+    largest = static_cast<uint16_t>(largest - (1u << shift));
+  }
+  f[0] = static_cast<uint16_t>(kWhole - sum);
+}
+
 RansTables RansEncoder::tables() const {
-  std::vector<std::array<uint32_t, kRansSymbols>> counts(kRansClasses);
+  std::vector<RansCounts> counts(kRansClasses);
   for (const Item& item : items_) ++counts[item.cls][rans_symbol(item.n)];
   RansTables out;
-  for (const auto& c : counts) out.push_back(rans_frequencies(c));
+  for (const RansCounts& c : counts) {
+    const RansFrequencies exact = rans_frequencies(c);
+    RansFrequencies& best = out.emplace_back(exact);
+    if (exact == RansFrequencies{}) continue;
+    double least = class_bits(c, exact, 0);
+    for (uint32_t shift = 1; shift < kRansBits; ++shift) {
+      RansFrequencies f = exact;
+      coarsen(shift, f);
+      const double bits = class_bits(c, f, shift);
+      if (bits >= least) continue;
+      least = bits;
+      best = f;
+    }
+  }
   return out;
 }
 

@@ -38,8 +38,13 @@ inline constexpr uint32_t kRansLastSingle =
 using RansFrequencies = std::array<uint16_t, kRansSymbols>;
 using RansTables = std::vector<RansFrequencies>;
 
+using RansCounts = std::array<uint32_t, kRansSymbols>;
+
 /// Frequencies near the counts; every symbol that occurs keeps at least 1.
-RansFrequencies rans_frequencies(const std::array<uint32_t, kRansSymbols>& counts);
+RansFrequencies rans_frequencies(const RansCounts& counts);
+/// Rounds all frequencies but the first to multiples of 2^shift plus 1, which are coded in fewer
+/// bits. 0 stays 0, all others above it.
+void coarsen(uint32_t shift, RansFrequencies& frequencies);
 
 /// Gathers integers in coding order, then writes the section.
 class RansEncoder {
@@ -56,7 +61,7 @@ class RansEncoder {
     put(lane, cls, n);
     return n;
   }
-  /// Frequencies of what was put so far.
+  /// Frequencies of what was put so far, as coarse as is worth it.
   RansTables tables() const;
   std::vector<uint8_t> finish() const;
 

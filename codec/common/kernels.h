@@ -101,7 +101,6 @@ struct LaneBlock {
   uint32_t running[kRansLanes] = {};  ///< decaying means of the magnitudes, in 1/256
   uint32_t before[kRansLanes] = {};   ///< the same without the last row
   uint32_t row_count = 0;
-  bool whole = false;  ///< predictions are rounded to integers
 };
 
 /// Prediction and context class of a row's components.

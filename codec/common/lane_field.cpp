@@ -14,14 +14,13 @@ constexpr uint32_t kLearnedBlocks = 2;  ///< more gain little
 
 }  // namespace
 
-LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weights,
-                     const LaneFieldOptions& options)
+LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weights)
     : graph_(graph),
-      steps_(graph.size(), 1.0f),
+      steps_(graph.size()),
       values_(size_t{graph.size()} * kRansLanes),
       magnitudes_(values_.size()),
       history_(graph.size(), 0) {
-  for (uint32_t r = 0; r < graph.size() && !options.whole; ++r)
+  for (uint32_t r = 0; r < graph.size(); ++r)
     steps_[r] = static_cast<float>(kStepTable[graph.step_level[r]]) / 65536.0f;
   block_.rows = graph.rows.data();
   block_.row_count = graph.size();
@@ -29,11 +28,10 @@ LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weight
   block_.steps = steps_.data();
   block_.values = values_.data();
   block_.magnitudes = magnitudes_.data();
-  block_.whole = options.whole;
 }
 
 LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start)
-    : LaneField(graph, start.weights, {}) {
+    : LaneField(graph, start.weights) {
   start_ = &start;
 }
 

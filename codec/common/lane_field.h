@@ -17,11 +17,6 @@
 
 namespace reeb {
 
-struct LaneFieldOptions {
-  bool whole = false;  ///< values are integers: predictions are rounded to the nearest, and all
-                       ///< steps are 1
-};
-
 /// How many of `count` components the block has that starts with component k. The first block is
 /// small, since nothing is known of the rows before it.
 constexpr uint32_t lanes_of_block(uint32_t k, uint32_t count) {
@@ -34,8 +29,7 @@ class LaneField {
 
   /// `weights`: kMaxNeighbours a row, 0 beyond its neighbours. Graph and weights must outlive the
   /// field.
-  LaneField(const PredictionGraph& graph, std::span<const float> weights,
-            const LaneFieldOptions& options);
+  LaneField(const PredictionGraph& graph, std::span<const float> weights);
   /// A field of coefficients, which learns from its first blocks. `start` must outlive it.
   LaneField(const PredictionGraph& graph, const LaneStart& start);
 

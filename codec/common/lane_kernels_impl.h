@@ -28,7 +28,6 @@ using LanesU = uint32_t __attribute__((vector_size(kTogether * 4)));
 using LanesF = float __attribute__((vector_size(kTogether * 4)));
 
 inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
-  constexpr float kRound = 12582912.0f;  // 3 * 2^22: leaves no fraction
   const uint32_t* neighbour = elements(b.rows[row].neighbour);
   const float* w = b.weights + size_t{row} * kMaxNeighbours;
   LanesF sum[4] = {};
@@ -36,8 +35,7 @@ inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
     for (uint32_t j = 0; j < 4; ++j)
       sum[j] += w[i + j] * load<LanesF>(b.values + size_t{neighbour[i + j]} * kRansLanes + first);
   }
-  const LanesF all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-  return b.whole ? (all + kRound) - kRound : all;
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// The mean magnitude in the ring, in 1/16; `other` where there is none.

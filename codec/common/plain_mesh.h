@@ -12,10 +12,6 @@
 
 namespace reeb {
 
-/// Weights that predict positions: the mean of the ring, moved away from the mean of the neighbours
-/// beyond, so that curved surfaces do not shrink.
-std::vector<float> position_weights(const PredictionGraph& graph);
-
 /// Of every vertex the last one before it that shares a triangle with it, else the one before it;
 /// 0 of vertex 0.
 std::vector<uint32_t> find_leaders(uint32_t vertex_count, std::span<const uint32_t> triangles);

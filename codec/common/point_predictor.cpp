@@ -19,38 +19,6 @@ enum Kind : uint32_t { kMean, kFitted, kFittedBySpread, kSingle, kInPlane, kLast
 
 uint32_t third_corner(uint32_t h) { return next_half_edge(next_half_edge(h)); }
 
-// Vertices waiting to be coded, by the number of their triangles that are known but for them.
-class Waiting {
- public:
-  explicit Waiting(uint32_t point_count) : count_(point_count) {}
-
-  void raise(uint32_t point) {
-    if (count_[point] == kLevels) return;
-    queues_[count_[point]++].push_back(point);
-  }
-
-  // The next point that is not `done`, or kNone when no triangle is known.
-  uint32_t take(const std::vector<uint8_t>& done) {
-    for (uint32_t level = kLevels; level-- > 0;) {
-      std::vector<uint32_t>& queue = queues_[level];
-      size_t& at = heads_[level];
-      while (at < queue.size()) {
-        const uint32_t point = queue[at++];
-        if (done[point] == 0 && count_[point] == level + 1) return point;
-      }
-      queue.clear();
-      at = 0;
-    }
-    return kNone;
-  }
-
- private:
-  static constexpr uint32_t kLevels = 6;
-  std::vector<uint8_t> count_;
-  std::array<std::vector<uint32_t>, kLevels> queues_;
-  std::array<size_t, kLevels> heads_{};
-};
-
 int64_t to_fixed(double x) {
   const double rounded = std::clamp(x, -1e6, 1e6) * 256 + 0.5;
   const auto toward_zero = static_cast<int64_t>(rounded);
@@ -64,28 +32,6 @@ void add_guess(uint32_t kind, double place, double scale, GuessMixture& out) {
 }
 
 }  // namespace
-
-std::vector<uint32_t> position_order(uint32_t point_count, std::span<const uint32_t> triangles) {
-  const HalfEdgeFans fans(point_count, triangles);
-  std::vector<uint8_t> done(point_count, 0);
-  Waiting waiting(point_count);
-  std::vector<uint32_t> order;
-  order.reserve(point_count);
-  uint32_t lowest = 0;
-  while (order.size() < point_count) {
-    uint32_t point = waiting.take(done);
-    while (point == kNone && done[lowest] != 0) ++lowest;
-    if (point == kNone) point = lowest;
-    done[point] = 1;
-    order.push_back(point);
-    for (const uint32_t h : fans[point]) {
-      const uint32_t a = triangles[next_half_edge(h)];
-      const uint32_t b = triangles[third_corner(h)];
-      if (done[a] != done[b]) waiting.raise(done[a] != 0 ? b : a);
-    }
-  }
-  return order;
-}
 
 // Cholesky decomposition of the normal matrix, whose diagonal the ridge keeps away from 0.
 FeatureWeights::Row FeatureWeights::solve() const {

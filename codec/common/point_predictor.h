@@ -17,10 +17,6 @@ namespace reeb {
 
 using Vec3 = std::array<double, 3>;
 
-/// Order in which positions are coded: always a vertex with the most triangles whose two other
-/// corners are coded (beyond 6 counts as 6), the one that came to its count first; else the lowest.
-std::vector<uint32_t> position_order(uint32_t point_count, std::span<const uint32_t> triangles);
-
 /// Weights of features by ridge regression over all vertices seen.
 class FeatureWeights {
  public:

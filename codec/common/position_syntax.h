@@ -7,6 +7,7 @@
 
 #include "codec/common/guess_mixture.h"
 #include "codec/common/loose_predictor.h"
+#include "codec/common/mesh_walk.h"
 #include "codec/common/point_predictor.h"
 #include "codec/common/reference_syntax.h"
 

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "codec/common/connectivity.h"
-#include "codec/common/point_predictor.h"
+#include "codec/common/mesh_walk.h"
 
 namespace reeb {
 // namespace

@@ -79,7 +79,7 @@ bool decode_basis_planes(const GroupChunk& chunk, const PredictionGraph& graph,
   const uint32_t count = chunk.header.component_count + 1;
   if (chunk.header.profile == Profile::kFast) {
     const std::vector<float> weights = prior_weights(graph);
-    LaneField field(graph, weights, {});
+    LaneField field(graph, weights);
     return decode_lane_field(chunk.basis, count, field, planes, stop);
   }
   Field field(graph, basis_field_options(), 1);

@@ -8,8 +8,9 @@
 #include "bitstream/syntax.h"
 #include "codec/common/contraction.h"
 #include "codec/common/face_order.h"
-#include "codec/common/lane_field.h"
+#include "codec/common/mesh_walk.h"
 #include "codec/common/plain_mesh.h"
+#include "codec/common/plain_positions.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -57,21 +58,11 @@ Status decode_state(const Sections& sections, const Limits& limits, uint64_t max
   return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces, plain);
 }
 
-Status decode_plain_positions(std::span<const uint8_t> bytes, const PredictionGraph& graph,
-                              const std::vector<uint32_t>& order, std::vector<int32_t>& grid) {
-  const std::vector<float> weights = position_weights(graph);
-  LaneField field(graph, weights, {.whole = true});
-  LaneField::Planes planes;
-  if (!decode_lane_field(bytes, 3, field, planes))
+Status decode_plain_positions(std::span<const uint8_t> bytes, const MeshWalk& walk,
+                              std::vector<int32_t>& grid) {
+  RansDecoder decoder;
+  if (!decoder.open(bytes, 3) || !code_plain_positions(decoder, walk, grid) || decoder.overrun())
     return Status::corrupt("mesh: positions are damaged");
-  for (size_t a = 0; a < 3; ++a) {
-    for (size_t r = 0; r < order.size(); ++r) {
-      const float x = planes[a][r];
-      if (!(x >= 0 && x <= static_cast<float>(kGridMax)))
-        return Status::corrupt("mesh: a position is off the grid");
-      grid[size_t{order[r]} * 3 + a] = static_cast<int32_t>(x);
-    }
-  }
   return {};
 }
 
@@ -139,10 +130,9 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
   if (plain) {
+    const MeshWalk walk = walk_mesh(h.vertex_count, out.triangles);
+    if (Status s = decode_plain_positions(sections.positions, walk, state.grid); !s.ok()) return s;
     out.surface = contract_mesh(h.vertex_count, out.triangles);
-    Status s = decode_plain_positions(sections.positions, out.surface.graph, out.surface.order,
-                                      state.grid);
-    if (!s.ok()) return s;
     weigh_rows(GridPoints(state.grid), out.surface);
   }
   if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {

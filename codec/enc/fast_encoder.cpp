@@ -76,8 +76,8 @@ GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float
   };
   const std::vector<float> weights = prior_weights(temporal_.graph);
   return code_twice(
-      temporal_.graph, [&] { return LaneField(temporal_.graph, weights, {}); }, kBasisLambda, 0,
-      code, out.basis);
+      temporal_.graph, [&] { return LaneField(temporal_.graph, weights); }, kBasisLambda, 0, code,
+      out.basis);
 }
 
 }  // namespace reeb

@@ -8,10 +8,11 @@
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/connectivity.h"
-#include "codec/common/contraction.h"
 #include "codec/common/face_order.h"
 #include "codec/common/faces.h"
+#include "codec/common/mesh_walk.h"
 #include "codec/common/plain_mesh.h"
+#include "codec/common/plain_positions.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
@@ -19,7 +20,6 @@
 #include "codec/enc/draco_connectivity_encoder.h"
 #include "codec/enc/face_matching.h"
 #include "codec/enc/face_set.h"
-#include "codec/enc/lane_field_encoder.h"
 #include "entropy/range_coder.h"
 
 namespace reeb {
@@ -180,18 +180,10 @@ MeshState make_state(const Connectivity& input, std::span<const int32_t> grid,
 }
 
 std::vector<uint8_t> write_plain_positions(const MeshState& state) {
-  const SurfaceGraph surface = contract_mesh(state.vertex_count, collect_triangles(state));
-  const std::vector<float> weights = position_weights(surface.graph);
-  std::vector<std::vector<float>> targets(3);
-  for (size_t a = 0; a < 3; ++a) {
-    for (const uint32_t v : surface.order)
-      targets[a].push_back(static_cast<float>(state.grid[size_t{v} * 3 + a]));
-  }
-  LaneField field(surface.graph, weights, {.whole = true});
-  const SymbolCosts costs = expected_costs();
-  LaneFieldEncoder encoder(field, surface.graph, 0, 0, costs);
-  encoder.code_block(targets);
-  return encoder.section(3).finish();
+  RansEncoder coder(3);
+  std::vector<int32_t> grid = state.grid;
+  code_plain_positions(coder, walk_mesh(state.vertex_count, collect_triangles(state)), grid);
+  return coder.finish();
 }
 
 Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, bool plain,

@@ -84,7 +84,7 @@ Bytes code_basis(const BuiltGroup& group) {
   const TemporalGraph temporal = build_temporal_graph(group.header.frame_count);
   if (group.header.profile == Profile::kFast) {
     const std::vector<float> weights = prior_weights(temporal.graph);
-    return code_lanes(LaneField(temporal.graph, weights, {}), group.header.component_count + 1,
+    return code_lanes(LaneField(temporal.graph, weights), group.header.component_count + 1,
                       group.basis);
   }
   Field field(temporal.graph, basis_field_options(), 1);

@@ -2,6 +2,7 @@
 import math
 
 from .arithmetic import f32, floor_log2, product32, sum32
+from .connectivity import NONE, after, before, coding_order, edges_from
 from .errors import require
 from .lanes import LaneSection
 from .surface import STEPS, Distances, Row, make_row, set_step_levels
@@ -108,13 +109,6 @@ class Order:
                 self.ring.append(min(r, 1))
 
 
-def position_weights(count, ring):
-    """Section 5."""
-    beyond = count - ring
-    a = 0.125 if ring > 2 and beyond >= 4 else 0.0
-    return [f32((1 + a) / ring)] * ring + [f32(-a / beyond) for _ in range(beyond)]
-
-
 class LaneWeights:
     """Section 4: the weights of a row, all in binary32."""
 
@@ -203,8 +197,7 @@ def constrain32(w, b):
 
 
 class LaneField:
-    """Section 3. weights: of every row; steps: of every row, or None where values are whole; learners: LaneWeights
-    of every row, or None where the weights are kept."""
+    """Section 3. weights, steps: of every row; learners: LaneWeights of every row, or None where the weights are kept."""
 
     def __init__(self, data, rows, planes, weights, steps, learners=None):
         self.section = LaneSection(data, min(16, planes))
@@ -249,9 +242,6 @@ class LaneField:
         for i, k in enumerate(self.rows[r].neighbours):
             s[i % 4] = sum32(s[i % 4], product32(self.weights[r][i], plane[k]))
         p = sum32(sum32(s[0], s[1]), sum32(s[2], s[3]))
-        if self.steps is None:
-            p = sum32(sum32(p, 12582912.0), -12582912.0)
-            return sum32(p, f32(n))
         return sum32(p, product32(f32(n), f32(self.steps[r] / 65536)))
 
     def classify(self, block, r, lane):
@@ -265,18 +255,81 @@ class LaneField:
             expected = (10 * near + 6 * mean) >> 4
         else:
             expected = (6 * mean + 10 * self.history[r]) >> 4
-        e = floor_log2(expected + 1)
-        below = (expected + 1) >> (e - 1) & 1 if e > 0 else 0
-        return min(19, 2 * e + below)
+        return size_class(expected)
 
 
-def decode_positions(data, order):
-    """Section 5: grid position of every row."""
-    rows = [Row(n, ring, [], []) for n, ring in zip(order.neighbours, order.ring)]
-    weights = [position_weights(len(n), ring) if n else [] for n, ring in zip(order.neighbours, order.ring)]
-    planes = LaneField(data, rows, 3, weights, None).planes
-    require(all(0 <= x <= 65535 for plane in planes for x in plane), "a position is off the grid")
-    return [tuple(int(plane[r]) for plane in planes) for r in range(len(rows))]
+def size_class(expected):
+    """Half an octave each, of a magnitude in 1/16."""
+    e = floor_log2(expected + 1)
+    below = (expected + 1) >> (e - 1) & 1 if e > 0 else 0
+    return min(19, 2 * e + below)
+
+
+class Walk:
+    """Section 5: the order of vertices and, at each, the triangles known before: (a, b, c), c maybe NONE."""
+
+    def __init__(self, vertex_count, triangles):
+        fans = edges_from(vertex_count, triangles)
+        self.order = coding_order(vertex_count, triangles)
+        turn = {}
+        self.known = []
+        for v in self.order:
+            turn[v] = len(turn)
+            known = []
+            for h in fans[v]:
+                a, b = triangles[after(h)], triangles[before(h)]
+                if a in turn and b in turn and len(known) < 16:
+                    known.append((a, b, self.across(triangles, fans, a, b, turn, v)))
+            self.known.append(known)
+
+    @staticmethod
+    def across(triangles, fans, a, b, turn, v):
+        for h in fans[b][:16]:
+            if triangles[after(h)] == a:
+                c = triangles[before(h)]
+                return c if c in turn and c != v else NONE
+        return NONE
+
+
+def decode_positions(data, walk):
+    """Section 5: grid position of every vertex."""
+    section = LaneSection(data, 3)
+    place, magnitude = {}, {}
+    running = [0] * 3
+    for turn, v in enumerate(walk.order):
+        position, m = [], []
+        for axis in range(3):
+            p, expected = guess_position(walk, turn, axis, place, magnitude, running[axis] >> 4)
+            n, _ = section.decode(axis, size_class(expected))
+            position.append(p + n)
+            require(0 <= p + n <= 65535, "a position is off the grid")
+            m.append(min(abs(n), 255))
+            running[axis] += 32 * m[axis] - (running[axis] >> 3)
+        place[v], magnitude[v] = position, m
+    section.check()
+    return [tuple(place[v]) for v in range(len(walk.order))]
+
+
+def guess_position(walk, turn, axis, place, magnitude, recent):
+    known = walk.known[turn]
+    tips = [place[a][axis] + place[b][axis] - place[c][axis] for a, b, c in known if c != NONE]
+    ends = [u for a, b, _ in known for u in (a, b)]
+    near = recent
+    if ends:
+        near = (sum(magnitude[u][axis] for u in ends) * (65536 // len(ends))) >> 12
+    usual = (10 * near + 6 * recent) >> 4
+    if len(tips) > 1:
+        return rounded_mean(tips), (5 * usual + 32 * (max(tips) - min(tips))) >> 3
+    if tips:
+        return tips[0], (5 * usual) >> 2
+    if ends:
+        return rounded_mean([place[u][axis] for u in ends]), 2 * usual
+    return (place[walk.order[turn - 1]][axis] if turn > 0 else 0), 2 * usual
+
+
+def rounded_mean(values):
+    p = product32(float(sum(values)), f32(1 / len(values)))
+    return int(sum32(sum32(p, 12582912.0), -12582912.0))
 
 
 def find_leaders(vertex_count, triangles):

@@ -9,6 +9,14 @@ SYMBOLS = 123
 UNIT = 1024
 
 
+def likely(f, before, s):
+    """What f[s] is likely to be."""
+    if s % 2 == 0:
+        return (3 * f[s - 1] + before[s]) // 4
+    same = (before[s] + before[s + 1]) // 2
+    return same if s == 1 else ((f[s - 2] + f[s - 1]) // 2 + same) // 2
+
+
 class LaneSection:
     def __init__(self, data, lanes):
         reader = Reader(data)
@@ -25,16 +33,28 @@ class LaneSection:
 
     def decode_tables(self, data):
         decoder = RangeDecoder(data)
-        count = ExpGolomb()
-        f = [ExpGolomb() for _ in range(24)]
+        count, shift = ExpGolomb(), ExpGolomb()
+        place = [[ExpGolomb() for _ in range(12)] for _ in range(2)]
+        before = [0] * SYMBOLS
         self.frequency = []
         for _ in range(CLASSES):
             n = count.decode(decoder)
             require(n <= SYMBOLS, "too many symbols")
-            others = [f[min(s, 23)].decode(decoder) for s in range(1, n)]
-            require(sum(others) <= UNIT, "frequencies are too large")
-            decoder.check()
-            self.frequency.append([UNIT - sum(others)] + others if n > 0 else [])
+            if n == 0:
+                self.frequency.append([])
+                continue
+            k = shift.decode(decoder)
+            require(k <= 9, "frequencies are too coarse")
+            f = [0] * SYMBOLS
+            for s in range(1, n):
+                context = (likely(f, before, s) + (1 << k) - 1) >> k
+                g = place[s % 2][context.bit_length()].decode(decoder)
+                decoder.check()
+                f[s] = ((g - 1) << k) + 1 if g > 0 else 0
+                require(sum(f) <= UNIT, "frequencies are too large")
+            f[0] = UNIT - sum(f)
+            self.frequency.append(f)
+            before = f
 
     def decode(self, lane, which):
         """decode_lane: (integer, its symbol)."""

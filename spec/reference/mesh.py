@@ -9,7 +9,7 @@ from .connectivity import NONE, after, find_twins, join_triangles
 from .container import FACE_ORDER_KEPT, ORDER_KEPT, PLAIN, read_mesh_header
 from .entropy import EVEN, AdaptiveBit, ExpGolomb, RangeDecoder, SignedInteger
 from .errors import Corrupt, Truncated, require
-from .fast import Order, decode_plain_order, decode_positions
+from .fast import Order, Walk, decode_plain_order, decode_positions
 from .guesses import Guess, GuessMixture
 from .order import arrange_faces, decode_order
 from .points import GRID_SIZE, PointDecoder
@@ -188,9 +188,7 @@ def decode_mesh(data, draco_command):
     grid, plain_order = parts.grid, None
     if header.flags & PLAIN:
         plain_order = Order(header.vertex_count, flat)
-        grid = [None] * header.vertex_count
-        for v, p in zip(plain_order.order, decode_positions(position, plain_order)):
-            grid[v] = p
+        grid = decode_positions(position, Walk(header.vertex_count, flat))
     if not header.flags & ORDER_KEPT:
         require(not order, "an order where none is kept")
         output = list(range(header.vertex_count))

@@ -1,6 +1,7 @@
 #include "entropy/rans.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 using namespace reeb;
@@ -91,6 +92,41 @@ TEST_CASE("frequencies sum to the whole and leave nothing out", "[rans]") {
     sum += frequencies[s];
   }
   CHECK(sum == 1u << kRansBits);
+}
+
+TEST_CASE("coarse frequencies keep what occurs", "[rans]") {
+  RansCounts counts{};
+  for (uint32_t s = 0; s < 40; ++s) counts[s] = 1 + 1000 / (1 + s * s);
+  SECTION("with zeros") {}
+  SECTION("without") { counts[0] = 0; }
+  const RansFrequencies exact = rans_frequencies(counts);
+  for (uint32_t shift = 0; shift < kRansBits; ++shift) {
+    RansFrequencies f = exact;
+    coarsen(shift, f);
+    uint32_t sum = 0;
+    for (uint32_t s = 0; s < kRansSymbols; ++s) {
+      sum += f[s];
+      if (s == 0) continue;
+      CHECK((f[s] > 0) == (counts[s] > 0));
+      CHECK((f[s] == 0 || (f[s] - 1u) % (1u << shift) == 0));
+    }
+    CHECK((counts[0] == 0 || f[0] > 0));
+    CHECK(sum == 1u << kRansBits);
+  }
+}
+
+TEST_CASE("tables cost little where little was put", "[rans]") {
+  // 30 integers of each class, of a spread that grows with it.
+  std::mt19937 random(4);
+  std::vector<Item> items;
+  double bits = 0;
+  for (uint32_t i = 0; i < 30 * kRansClasses; ++i) {
+    const uint32_t cls = i % kRansClasses, values = 3 + 2 * cls;
+    items.push_back({0, cls, static_cast<int32_t>(random() % values - cls - 1)});
+    bits += std::log2(values);
+  }
+  CHECK(static_cast<double>(encode(items, 1).size()) < bits / 8 + 12 + 240);
+  check_decodes(encode(items, 1), items, 1);
 }
 
 TEST_CASE("rANS spends what the entropy asks for", "[rans]") {

@@ -73,28 +73,10 @@ TEST_CASE("a lane field decodes to what its encoder had", "[lane_field]") {
   }
 }
 
-TEST_CASE("a whole lane field gives integers back", "[lane_field]") {
-  const Shape shape = torus(30, 20);
-  const SurfaceGraph surface = torus_graph();
-  const std::vector<int32_t> grid = on_grid(shape, 16);
-  LaneField::Planes targets(3);
-  for (size_t a = 0; a < 3; ++a) {
-    for (const uint32_t v : surface.order)
-      targets[a].push_back(static_cast<float>(grid[size_t{v} * 3 + a]));
-  }
-  const std::vector<float> weights = position_weights(surface.graph);
-  const LaneFieldOptions options = {.whole = true};
-  const Coded coded = encode(surface.graph, LaneField(surface.graph, weights, options), targets, 0);
-  LaneField field(surface.graph, weights, {.whole = true});
-  LaneField::Planes planes;
-  REQUIRE(decode_lane_field(coded.section, 3, field, planes));
-  CHECK(planes == targets);
-}
-
 TEST_CASE("classes follow the magnitudes around", "[lane_field]") {
   const SurfaceGraph surface = torus_graph();
   const std::vector<float> weights = prior_weights(surface.graph);
-  LaneField field(surface.graph, weights, {});
+  LaneField field(surface.graph, weights);
   field.begin_block();
   int32_t n[kRansLanes] = {0, 1, -1, 900, -5000, 2, 0, 7};
   const LaneGuess first = field.guess(0);
@@ -130,9 +112,9 @@ TEST_CASE("cut lane fields are refused", "[lane_field]") {
   const SurfaceGraph surface = torus_graph();
   const std::vector<float> weights = prior_weights(surface.graph);
   const Coded coded =
-      encode(surface.graph, LaneField(surface.graph, weights, {}), smooth_planes(surface, 9), 0.1);
+      encode(surface.graph, LaneField(surface.graph, weights), smooth_planes(surface, 9), 0.1);
   for (size_t size = 0; size < coded.section.size(); size += 1 + size / 20) {
-    LaneField field(surface.graph, weights, {});
+    LaneField field(surface.graph, weights);
     LaneField::Planes planes;
     CHECK_FALSE(decode_lane_field(std::span(coded.section).first(size), 9, field, planes));
   }

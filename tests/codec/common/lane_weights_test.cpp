@@ -192,6 +192,6 @@ TEST_CASE("every instruction set finds the same weights of lanes", "[lane_weight
 
 TEST_CASE("a field learns from its first blocks", "[lane_weights]") {
   const Fixture f(torus(30, 20));
-  const double kept = later_bits(f, LaneField(f.surface.graph, f.start.weights, {}));
+  const double kept = later_bits(f, LaneField(f.surface.graph, f.start.weights));
   CHECK(later_bits(f, LaneField(f.surface.graph, f.start)) < 0.7 * kept);
 }

@@ -1,11 +1,10 @@
 #include "codec/common/point_predictor.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numeric>
 
 #include "codec/common/connectivity.h"
+#include "codec/common/mesh_walk.h"
 #include "entropy/range_coder.h"
 
 using namespace reeb;
@@ -52,20 +51,6 @@ double bits_per_vertex(uint32_t n, Height height) {
 }
 
 }  // namespace
-
-TEST_CASE("the order takes every point once and grows along triangles", "[point_predictor]") {
-  const List triangles = grid_triangles(9);
-  const List order = position_order(83, triangles);  // two points without triangles
-  List sorted = order, all(83);
-  std::sort(sorted.begin(), sorted.end());
-  std::iota(all.begin(), all.end(), 0u);
-  CHECK(sorted == all);
-  CHECK(order[0] == 0);
-  CHECK(order[1] == 1);
-  CHECK(order[2] == 9);   // ends the first triangle
-  CHECK(order[3] == 10);  // the next one, on the two before
-  CHECK(position_order(0, {}).empty());
-}
 
 TEST_CASE("a plane costs nearly nothing, a smooth surface little", "[point_predictor]") {
   CHECK(bits_per_vertex(40, [](int32_t x, int32_t y) { return 2 * x + y; }) < 0.3);
