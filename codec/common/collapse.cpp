@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "codec/common/list_pool.h"
+#include "codec/common/neighbour_lists.h"
 #include "codec/common/sort_few.h"
 
 namespace reeb {
@@ -17,7 +19,6 @@ constexpr uint32_t kMaxMerged = 12;  ///< valence that a collapse may give to it
 /// A vertex of more triangles is left out, triangles and all: with every valence bounded, so is the
 /// time.
 constexpr uint32_t kMaxFaces = 256;
-constexpr uint32_t kIndexBits = 25;  ///< of a vertex
 constexpr uint32_t kMinProgress =
     200;  ///< stop when a level removes fewer than one vertex in this many
 
@@ -28,9 +29,10 @@ class Collapser {
   Collapser(const GridPoints& points, std::span<const uint32_t> triangles, uint32_t max_extra)
       : points_(points),
         max_extra_(max_extra),
-        neighbours_({}),
+        none_(points.size()),
+        neighbours_({}, none_),
         faces_({}),
-        seen_(points.size(), 0),
+        seen_(points.size() + 1, 0),
         locked_(points.size(), 0) {
     Indices face_count(points.size(), 0);
     for (const uint32_t v : triangles) ++face_count[v];
@@ -80,7 +82,7 @@ class Collapser {
     for (size_t v = 0; v < room.size(); ++v) room[v] = count[v] + kMaxMerged / 2;
     faces_ = ListPool(room);
     for (size_t v = 0; v < room.size(); ++v) room[v] = std::max(2 * count[v], kMaxMerged + 4);
-    neighbours_ = ListPool(room);
+    neighbours_ = NeighbourLists(room, none_);
     triangles_.reserve(corners.size() / 3);
     for (size_t i = 0; i < corners.size(); i += 3)
       add_triangle({corners[i], corners[i + 1], corners[i + 2]});
@@ -97,18 +99,33 @@ class Collapser {
     }
   }
 
-  /// Vertices in the order in which this level tries them: short mean edges first.
-  std::vector<uint64_t> candidates() const {
-    std::vector<uint64_t> keys;
-    keys.reserve(alive_.size());
+  /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
+  /// alive are in order of their indices.
+  const std::vector<uint64_t>& candidates() {
+    constexpr uint32_t kDigitBits = 11;  // two digits are enough for the longest edge
+    constexpr uint32_t kDigits = 1u << kDigitBits;
+    std::array<uint32_t, kDigits> low_begin{}, high_begin{};
+    keys_.clear();
     for (const uint32_t v : alive_) {
       uint64_t sum = 0;
       for (const uint32_t u : neighbours_[v]) sum += points_.distance_q4(v, u);
       const uint64_t mean = sum / std::max<size_t>(1, neighbours_[v].size());
-      keys.push_back(mean << 32 | v);
+      keys_.push_back(mean << 32 | v);
+      ++low_begin[mean % kDigits];
+      ++high_begin[mean >> kDigitBits];
     }
-    std::sort(keys.begin(), keys.end());
-    return keys;
+    sort_by_digit(32, low_begin);
+    sort_by_digit(32 + kDigitBits, high_begin);
+    return keys_;
+  }
+
+  /// Sorts the keys, stably, by the digit from bit `shift` on, of which `begin` has the counts.
+  template <size_t kDigits>
+  void sort_by_digit(uint32_t shift, std::array<uint32_t, kDigits>& begin) {
+    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+    sorted_.resize(keys_.size());
+    for (const uint64_t key : keys_) sorted_[begin[(key >> shift) % kDigits]++] = key;
+    keys_.swap(sorted_);
   }
 
   size_t run_level(std::vector<Collapse>& out) {
@@ -124,14 +141,8 @@ class Collapser {
       if (target < 0) continue;
       Collapse& made = out.emplace_back();
       made.vertex = v;
-      around_ = near_;
-      sort_few(around_);
-      for (const uint32_t u : around_) {
-        made.ring.push_back(u);
-        locked_[u] = level_;
-      }
-      find_far_neighbours(v);
-      for (const uint32_t u : far_) made.extra.push_back(u);
+      note_ring(made.ring);
+      find_far_neighbours(v, made.extra);
       collapse(v, static_cast<uint32_t>(target));
     }
     const size_t removed = out.size() - before;
@@ -141,12 +152,31 @@ class Collapser {
     return removed;
   }
 
-  void sort_by_distance(uint32_t v, Indices& vertices) {
-    keys_.clear();
-    for (const uint32_t u : vertices) keys_.push_back(points_.distance2(v, u) << kIndexBits | u);
-    sort_few(keys_);
-    for (size_t i = 0; i < keys_.size(); ++i)
-      vertices[i] = static_cast<uint32_t>(keys_[i] & ((uint64_t{1} << kIndexBits) - 1));
+  /// Locks the vertices in near_, by index the ring.
+  void note_ring(FixedList<uint32_t, 16>& ring) {
+    std::array<int32_t, kFew> keys{};
+    for (size_t i = 0; i < near_.size(); ++i) {
+      ring.push_back(near_[i]);
+      keys[i] = static_cast<int32_t>(near_[i]);
+      locked_[near_[i]] = level_;
+    }
+    sort_few(keys, std::span(ring.begin(), ring.size()));
+  }
+
+  void sort_by_distance(uint32_t v, std::span<uint32_t> vertices) const {
+    if (vertices.size() <= kFew) {
+      std::array<int32_t, kFew> keys{};
+      uint64_t bits = 0;
+      for (size_t i = 0; i < vertices.size(); ++i) {
+        const uint64_t distance2 = points_.distance2(v, vertices[i]);
+        keys[i] = static_cast<int32_t>(distance2);
+        bits |= distance2;
+      }
+      if (bits >> 31 == 0 && sort_few(keys, vertices)) return;
+    }
+    std::sort(vertices.begin(), vertices.end(), [&](uint32_t a, uint32_t b) {
+      return std::pair(points_.distance2(v, a), a) < std::pair(points_.distance2(v, b), b);
+    });
   }
 
   /// Nearest neighbour that v can be merged into without changing the topology; -1 if there is
@@ -156,9 +186,9 @@ class Collapser {
     const std::span<const uint32_t> faces = faces_[v];
     const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_.size() ? 2 : 1;
     for (const uint32_t u : near_) {
-      const std::span<const uint32_t> others = neighbours_[u];
-      if (others.size() + near_.size() > kMaxMerged + 4) continue;
+      if (neighbours_[u].size() + near_.size() > kMaxMerged + 4) continue;
       if (near_.size() <= 2) return u;  // a loose end, nothing to protect
+      const std::span<const uint32_t> others = neighbours_.by_eights(u);
       const auto common =
           std::count_if(others.begin(), others.end(), [&](uint32_t w) { return marked(w); });
       const auto shared = std::count_if(faces.begin(), faces.end(),
@@ -172,33 +202,36 @@ class Collapser {
 
   /// Leaves in far_ the neighbours of `from` that are not marked, and marks them.
   void find_next_ring(std::span<const uint32_t> from) {
-    far_.clear();
+    size_t most = 0;
+    for (const uint32_t w : from) most += neighbours_.by_eights(w).size();
+    far_.resize(std::max(far_.size(), most));
     const auto is_new = marker(stamp_);
+    size_t size = 0;
     for (const uint32_t w : from) {
-      const std::span<const uint32_t> others = neighbours_[w];
-      size_t size = far_.size();
-      far_.resize(size + others.size());
-      for (const uint32_t u : others) {
+      for (const uint32_t u : neighbours_.by_eights(w)) {
         far_[size] = u;
         size += is_new(u) ? 1 : 0;
       }
-      far_.resize(size);
     }
+    far_size_ = size;
   }
 
-  /// Leaves in far_ the nearest of the second ring, then of the third. Pre-condition: near_ and its
-  /// marks as choose_target leaves them.
-  void find_far_neighbours(uint32_t v) {
-    seen_[v] = stamp_;
+  /// The nearest of the second ring, then of the third. Pre-condition: near_ and its marks as
+  /// choose_target leaves them.
+  void find_far_neighbours(uint32_t v, FixedList<uint32_t, 16>& extra) {
+    seen_[v] = seen_[none_] = stamp_;
     find_next_ring(near_);
-    sort_by_distance(v, far_);
-    if (far_.size() < max_extra_) {
-      const Indices second = far_;
-      find_next_ring(second);
-      sort_by_distance(v, far_);
-      far_.insert(far_.begin(), second.begin(), second.end());
-    }
-    if (far_.size() > max_extra_) far_.resize(max_extra_);
+    add_nearest_far(v, extra);
+    if (extra.size() == max_extra_) return;
+    around_.assign(far_.begin(), far_.begin() + far_size_);
+    find_next_ring(around_);
+    add_nearest_far(v, extra);
+  }
+  void add_nearest_far(uint32_t v, FixedList<uint32_t, 16>& extra) {
+    const std::span<uint32_t> far(far_.data(), far_size_);
+    sort_by_distance(v, far);
+    for (const uint32_t u : far.first(std::min(far.size(), max_extra_ - extra.size())))
+      extra.push_back(u);
   }
 
   /// Pre-condition: near_ holds the neighbours of v.
@@ -226,12 +259,12 @@ class Collapser {
         neighbours_.push_back(target, w);
       }
     }
-    neighbours_.clear(v);
   }
 
   const GridPoints& points_;
   uint32_t max_extra_;
-  ListPool neighbours_;
+  uint32_t none_;  ///< beyond all vertices
+  NeighbourLists neighbours_;
   ListPool faces_;
   std::vector<Triangle> triangles_;
   Indices alive_;
@@ -239,10 +272,11 @@ class Collapser {
   uint32_t stamp_ = 0;
   Indices locked_;  ///< level at which the vertex must stay
   uint32_t level_ = 0;
-  Indices near_;    ///< neighbours of the vertex at hand, nearest first
-  Indices far_;     ///< others near it
-  Indices around_;  ///< its neighbours by index, then its triangles
-  std::vector<uint64_t> keys_;
+  Indices near_;  ///< neighbours of the vertex at hand, nearest first
+  Indices far_;   ///< others near it, the first far_size_
+  size_t far_size_ = 0;
+  Indices around_;  ///< its second ring, then its triangles
+  std::vector<uint64_t> keys_, sorted_;
 };
 
 }  // namespace

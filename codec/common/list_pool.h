@@ -33,24 +33,10 @@ class ListPool {
     items_[l.begin + l.size++] = x;
   }
 
-  /// Pre-condition of both: x is in the list, once.
+  /// Pre-condition: x is in the list, once.
   void erase(uint32_t list, uint32_t x) {
     uint32_t* const at = find(list, x);
     *at = items_[lists_[list].begin + --lists_[list].size];
-  }
-  void replace(uint32_t list, uint32_t x, uint32_t by) { *find(list, x) = by; }
-
-  /// Keeps those for which `keep`, called once for each in turn, is true.
-  template <class Keep>
-  void filter(uint32_t list, Keep keep) {
-    uint32_t* const items = items_.data() + lists_[list].begin;
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < lists_[list].size; ++i) {
-      const uint32_t x = items[i];
-      items[kept] = x;
-      kept += keep(x) ? 1 : 0;
-    }
-    lists_[list].size = kept;
   }
   void clear(uint32_t list) { lists_[list].size = 0; }
 

@@ -1,0 +1,96 @@
+// The neighbours of each vertex of a mesh that is being collapsed.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace reeb {
+
+/// A list per vertex, in no order, whose room is given from the start. Behind the elements the room
+/// is filled with what stands for none, so that loops may go by eights: processors seldom foresee
+/// where a shorter one ends.
+class NeighbourLists {
+ public:
+  /// Empty lists with room for capacity[v] elements; `none` is no vertex.
+  NeighbourLists(const std::vector<uint32_t>& capacity, uint32_t none) : none_(none) {
+    lists_.reserve(capacity.size());
+    uint32_t begin = 0;
+    for (const uint32_t c : capacity) {
+      lists_.push_back({begin, 0});
+      begin += padded(c);
+    }
+    items_.resize(begin, none);
+  }
+
+  std::span<const uint32_t> operator[](uint32_t list) const {
+    return {items_.data() + lists_[list].begin, lists_[list].size};
+  }
+  /// The same, filled up with none to a multiple of eight.
+  std::span<const uint32_t> by_eights(uint32_t list) const {
+    return {items_.data() + lists_[list].begin, padded(lists_[list].size)};
+  }
+
+  /// Pre-condition: there is room.
+  void push_back(uint32_t list, uint32_t x) {
+    List& l = lists_[list];
+    items_[l.begin + l.size++] = x;
+  }
+
+  /// Pre-condition of both: x is in the list, once.
+  void erase(uint32_t list, uint32_t x) {
+    uint32_t& last = items_[lists_[list].begin + --lists_[list].size];
+    *find(list, x) = last;
+    last = none_;
+  }
+  void replace(uint32_t list, uint32_t x, uint32_t by) { *find(list, x) = by; }
+
+  /// Keeps those for which `keep`, called once for each in turn, is true.
+  template <class Keep>
+  void filter(uint32_t list, Keep keep) {
+    uint32_t* const items = items_.data() + lists_[list].begin;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < lists_[list].size; ++i) {
+      const uint32_t x = items[i];
+      items[kept] = x;
+      kept += keep(x) ? 1 : 0;
+    }
+    std::fill(items + kept, items + lists_[list].size, none_);
+    lists_[list].size = kept;
+  }
+
+ private:
+  struct List {
+    uint32_t begin, size;
+  };
+  using Four = uint32_t __attribute__((vector_size(16)));
+
+  static uint32_t padded(uint32_t size) { return (size + 7) / 8 * 8; }
+
+  uint32_t* find(uint32_t list, uint32_t x) {
+    uint32_t* at = items_.data() + lists_[list].begin;
+    for (;; at += 8) {
+      const uint32_t place = place_among_eight(at, x);
+      if (place > 0) return at + place - 1;
+    }
+  }
+
+  /// 1 for the first; 0 where it is not there.
+  static uint32_t place_among_eight(const uint32_t* items, uint32_t x) {
+    Four low, high;
+    std::memcpy(&low, items, sizeof low);
+    std::memcpy(&high, items + 4, sizeof high);
+    const Four wanted = {x, x, x, x};
+    const Four found = (reinterpret_cast<Four>(low == wanted) & Four{1, 2, 3, 4}) |
+                       (reinterpret_cast<Four>(high == wanted) & Four{5, 6, 7, 8});
+    return found[0] | found[1] | found[2] | found[3];
+  }
+
+  uint32_t none_;
+  std::vector<uint32_t> items_;
+  std::vector<List> lists_;
+};
+
+}  // namespace reeb
