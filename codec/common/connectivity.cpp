@@ -5,39 +5,6 @@
 namespace reeb {
 namespace {
 
-struct EdgeEntry {
-  uint32_t high;  // vertex of the edge; the bucket is the lower one
-  uint32_t half_edge;
-  bool operator<(const EdgeEntry& o) const {
-    return high != o.high ? high < o.high : half_edge < o.half_edge;
-  }
-};
-
-uint32_t end_of(std::span<const uint32_t> triangles, uint32_t h) {
-  return triangles[next_half_edge(h)];
-}
-
-// Half-edges by the lower vertex of their edge, sorted within: `first` says where each vertex
-// starts.
-std::vector<EdgeEntry> sort_by_edge(std::span<const uint32_t> triangles,
-                                    std::vector<uint32_t>& first) {
-  const uint32_t vertex_count =
-      triangles.empty() ? 0 : *std::max_element(triangles.begin(), triangles.end()) + 1;
-  first.assign(size_t{vertex_count} + 1, 0);
-  const auto low = [&](uint32_t h) { return std::min(triangles[h], end_of(triangles, h)); };
-  for (uint32_t h = 0; h < triangles.size(); ++h) ++first[size_t{low(h)} + 1];
-  for (size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
-  std::vector<uint32_t> at(first.begin(), first.end() - 1);
-  std::vector<EdgeEntry> entries(triangles.size());
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    entries[at[low(h)]++] = {std::max(triangles[h], end_of(triangles, h)), h};
-  }
-  for (size_t v = 0; v < vertex_count; ++v) {
-    std::sort(entries.begin() + first[v], entries.begin() + first[v + 1]);
-  }
-  return entries;
-}
-
 // Boundary of the polygon that holds `start`, an unmarked half-edge. Every triangle adds one
 // corner, so a boundary longer than `limit` means a marked cycle.
 bool walk_boundary(uint32_t start, std::span<const uint32_t> triangles,
@@ -63,22 +30,43 @@ bool walk_boundary(uint32_t start, std::span<const uint32_t> triangles,
 
 }  // namespace
 
-std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles) {
-  std::vector<uint32_t> first;
-  const std::vector<EdgeEntry> entries = sort_by_edge(triangles, first);
+// Every edge is looked at from its lower vertex, around which the fan has all its half-edges.
+std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles,
+                                      const HalfEdgeFans& fans) {
+  struct Edge {
+    uint32_t low = UINT32_MAX;
+    uint32_t half_edges;  // that are met
+    uint32_t first;       // of them
+  };
+  std::vector<Edge> edge_to(fans.vertex_count());  // by the higher vertex, of the lower one at hand
   std::vector<uint32_t> twins(triangles.size(), kNoTwin);
-  for (size_t v = 0; v + 1 < first.size(); ++v) {
-    for (size_t i = first[v], end; i < first[v + 1]; i = end) {
-      for (end = i + 1; end < first[v + 1] && entries[end].high == entries[i].high;) ++end;
-      if (end - i != 2) continue;
-      const uint32_t h = entries[i].half_edge;
-      const uint32_t k = entries[i + 1].half_edge;
-      if (triangles[h] == triangles[k]) continue;
-      twins[h] = k;
-      twins[k] = h;
+  for (uint32_t v = 0; v < fans.vertex_count(); ++v) {
+    const auto meet = [&](uint32_t high, uint32_t h) {
+      if (high <= v) return;
+      Edge& edge = edge_to[high];
+      if (edge.low != v) {
+        edge = {v, 1, h};
+      } else if (++edge.half_edges == 2 && triangles[h] != triangles[edge.first]) {
+        twins[h] = edge.first;
+        twins[edge.first] = h;
+      } else if (edge.half_edges == 3 && twins[edge.first] != kNoTwin) {
+        twins[twins[edge.first]] = kNoTwin;
+        twins[edge.first] = kNoTwin;
+      }
+    };
+    for (const uint32_t h : fans[v]) {
+      const uint32_t next = next_half_edge(h);
+      const uint32_t before = next_half_edge(next);
+      meet(triangles[next], h);
+      meet(triangles[before], before);
     }
   }
   return twins;
+}
+
+std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles) {
+  const auto highest = std::max_element(triangles.begin(), triangles.end());
+  return pair_half_edges(triangles, HalfEdgeFans(triangles.empty() ? 0 : *highest + 1, triangles));
 }
 
 bool join_triangles(std::span<const uint32_t> triangles, std::span<const uint32_t> twins,

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "codec/common/half_edge_fans.h"
+
 namespace reeb {
 
 inline constexpr uint32_t kNoTwin = std::numeric_limits<uint32_t>::max();
@@ -17,6 +19,9 @@ inline uint32_t next_half_edge(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; 
 /// The half-edge that runs the other way along each half-edge's edge; kNoTwin where the edge does
 /// not have exactly two half-edges of opposite direction. `triangles`: three vertices each.
 std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles);
+/// The same where the fans are there already.
+std::vector<uint32_t> pair_half_edges(std::span<const uint32_t> triangles,
+                                      const HalfEdgeFans& fans);
 
 /// Polygons as `sizes` and `corners` (see Connectivity), ordered by their first triangle.
 struct Polygons {

@@ -93,7 +93,8 @@ Status code_face_order(Coder& coder, const FaceOrderContext& context, FaceOrder&
   order.first.resize(count);
   FreeIndices free(count);
   const std::vector<uint32_t> dual = context.dual_triangles();
-  OrderPredictor predictor(count, dual);
+  const TriangleTopology topology(count, dual);
+  OrderPredictor predictor(topology);
   GuessMixture guesses(OrderPredictor::kKindCount + 1, OrderPredictor::kMemory);
   std::vector<uint32_t> face_at(count);
   for (uint32_t turn = 0; turn < count; ++turn) {

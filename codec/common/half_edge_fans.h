@@ -18,6 +18,7 @@ class HalfEdgeFans {
     for (uint32_t h = 0; h < triangles.size(); ++h) half_edges_[at[triangles[h]]++] = h;
   }
 
+  uint32_t vertex_count() const { return static_cast<uint32_t>(first_.size() - 1); }
   /// Half-edges that start at v, ascending.
   std::span<const uint32_t> operator[](uint32_t v) const {
     return std::span(half_edges_).subspan(first_[v], first_[v + 1] - first_[v]);

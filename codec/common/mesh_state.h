@@ -15,7 +15,6 @@ struct MeshState {
   uint32_t face_count = 0;
   uint32_t point_count = 0;
   std::vector<uint32_t> triangles;        ///< three points each, by Draco
-  std::vector<uint32_t> twins;            ///< of `triangles`, see pair_half_edges
   std::vector<int32_t> point_grid;        ///< [point][xyz]
   std::vector<uint32_t> vertex_of_point;  ///< coding numbering; rises by one at each new vertex
   std::vector<int32_t> grid;              ///< [coding vertex][xyz]

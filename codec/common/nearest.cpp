@@ -8,7 +8,9 @@ namespace reeb {
 
 namespace {
 constexpr uint32_t kLeafSize = 8;
-constexpr uint32_t kFew = 128;                    ///< earlier vertices that are all tried
+constexpr uint32_t kFew = 128;  ///< earlier vertices that are all tried
+/// Vertices that may be tried for each of the tree before that is made: about what it takes.
+constexpr uint64_t kWorthATree = 16;
 using Candidate = std::pair<uint64_t, uint32_t>;  // squared distance, vertex
 }  // namespace
 
@@ -86,7 +88,9 @@ void EarlierNeighbours::visit(uint32_t id, Query& query) const {
 
 std::vector<uint32_t> EarlierNeighbours::find(uint32_t v, uint32_t k) {
   Query query{v, k, {}};
-  if (rank_[v] <= kFew) {
+  const bool spares_tree = nodes_.empty() && tried_ <= kWorthATree * points_.size();
+  if (rank_[v] <= kFew || spares_tree) {
+    tried_ += rank_[v];
     for (uint32_t r = 0; r < rank_[v]; ++r) try_vertex(order_[r], query);
   } else {
     if (nodes_.empty()) build();

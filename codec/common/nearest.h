@@ -8,9 +8,9 @@
 
 namespace reeb {
 
-/// Tries all vertices where they are few; else by a k-d tree over the vertices of the reference
-/// mesh, made when first needed. Every node knows the lowest rank (position in the coding order)
-/// below it, so that a query skips what is not decoded yet.
+/// Tries all vertices where they are few, or queries are; else by a k-d tree over the vertices of
+/// the reference mesh, made when first needed. Every node knows the lowest rank (position in the
+/// coding order) below it, so that a query skips what is not decoded yet.
 class EarlierNeighbours {
  public:
   /// `order`: the vertices in coding order; `rank[v]`: place of vertex v there. All must outlive
@@ -42,6 +42,7 @@ class EarlierNeighbours {
   const std::vector<uint32_t>& rank_;
   std::vector<uint32_t> items_;
   std::vector<Node> nodes_;  ///< empty before the tree is needed
+  uint64_t tried_ = 0;       ///< vertices, without a tree
 };
 
 }  // namespace reeb

@@ -64,22 +64,20 @@ void FeatureWeights::learn(const Row& features, double target, double confidence
   }
 }
 
-PointPredictor::PointPredictor(uint32_t point_count, std::span<const uint32_t> triangles,
-                               std::span<const uint32_t> twins)
-    : triangles_(triangles),
-      twins_(twins),
-      fans_(point_count, triangles),
-      seams_(triangles, twins, fans_, point_count),
-      coded_(point_count),
-      error_(point_count),
-      degree_(point_count),
-      known_(point_count),
-      known_sum_(point_count),
+PointPredictor::PointPredictor(const TriangleTopology& topology)
+    : triangles_(topology.triangles),
+      twins_(topology.twins),
+      fans_(topology.fans),
+      seams_(topology.triangles, topology.twins, topology.fans, topology.point_count()),
+      coded_(topology.point_count()),
+      error_(topology.point_count()),
+      degree_(topology.point_count()),
+      known_(topology.point_count()),
+      known_sum_(topology.point_count()),
       last_(kNone) {
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t ends[2] = {triangles[h], triangles[next_half_edge(h)]};
-    ++degree_[ends[0]];
-    if (twins[h] == kNoTwin) ++degree_[ends[1]];
+  for (uint32_t h = 0; h < triangles_.size(); ++h) {
+    ++degree_[triangles_[h]];
+    if (twins_[h] == kNoTwin) ++degree_[triangles_[next_half_edge(h)]];
   }
 }
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "codec/common/guess_mixture.h"
-#include "codec/common/half_edge_fans.h"
 #include "codec/common/seam_finder.h"
+#include "codec/common/triangle_topology.h"
 
 namespace reeb {
 
@@ -31,13 +31,12 @@ class FeatureWeights {
   Row right_ = {};
 };
 
-/// Used for each vertex of `position_order` in turn: `start`, then for each axis `guess` and
+/// Used for each vertex in the order of the topology: `start`, then for each axis `guess` and
 /// `learn`.
 class PointPredictor {
  public:
-  /// `twins` as of pair_half_edges. The spans must outlive the predictor.
-  PointPredictor(uint32_t point_count, std::span<const uint32_t> triangles,
-                 std::span<const uint32_t> twins);
+  /// `topology` must outlive the predictor.
+  explicit PointPredictor(const TriangleTopology& topology);
 
   static constexpr uint32_t kMemory = 256;  ///< observations, see GuessMixture
   static constexpr uint32_t kKindCount = 6 * 5 + 2;
@@ -66,7 +65,7 @@ class PointPredictor {
 
   std::span<const uint32_t> triangles_;
   std::span<const uint32_t> twins_;
-  HalfEdgeFans fans_;
+  const HalfEdgeFans& fans_;
   SeamFinder seams_;
 
   // Of every point: whether it is coded, its mean error, its neighbours in all and those coded.

@@ -7,19 +7,18 @@
 
 #include "codec/common/guess_mixture.h"
 #include "codec/common/loose_predictor.h"
-#include "codec/common/mesh_walk.h"
 #include "codec/common/point_predictor.h"
 #include "codec/common/reference_syntax.h"
 
 namespace reeb {
 
-/// Codes the positions of Draco's points.
+/// Codes the positions of Draco's points, `topology` being that of their triangles.
 template <class Coder>
-Status code_point_positions(Coder& coder, MeshState& s) {
+Status code_point_positions(Coder& coder, const TriangleTopology& topology, MeshState& s) {
   s.point_grid.resize(size_t{s.point_count} * 3);
-  PointPredictor predictor(s.point_count, s.triangles, s.twins);
+  PointPredictor predictor(topology);
   GuessMixture guesses(PointPredictor::kKindCount, PointPredictor::kMemory);
-  for (const uint32_t p : position_order(s.point_count, s.triangles)) {
+  for (const uint32_t p : topology.order) {
     predictor.start(p, s.point_grid);
     for (size_t axis = 0; axis < 3; ++axis) {
       int32_t& x = s.point_grid[size_t{p} * 3 + axis];
@@ -51,23 +50,26 @@ Status code_loose_positions(Coder& coder, uint32_t first, uint32_t vertex_count,
   return {};
 }
 
-/// The whole section `rest` of a reference mesh. A plain one has its positions elsewhere: here all
-/// are (0, 0, 0).
+/// The whole section `rest` of a reference mesh. `topology`: of Draco's triangles; null for a
+/// plain mesh, which has its positions elsewhere: here all are (0, 0, 0).
 template <class Coder>
-Status code_rest(Coder& coder, MeshState& s, uint64_t max_corners, bool plain) {
-  if (plain) {
+Status code_rest(Coder& coder, const TriangleTopology* topology, MeshState& s,
+                 uint64_t max_corners) {
+  if (topology == nullptr) {
     s.point_grid.assign(size_t{s.point_count} * 3, 0);
-  } else if (Status status = code_point_positions(coder, s); !status.ok()) {
+  } else if (Status status = code_point_positions(coder, *topology, s); !status.ok()) {
     return status;
   }
   if (Status status = SplitSyntax().code(coder, s); !status.ok()) return status;
-  if (Status status = DiagonalSyntax().code(coder, s); !status.ok()) return status;
+  std::span<const uint32_t> twins;
+  if (topology != nullptr) twins = topology->twins;
+  if (Status status = DiagonalSyntax(twins).code(coder, s); !status.ok()) return status;
   const auto highest = std::max_element(s.vertex_of_point.begin(), s.vertex_of_point.end());
   const uint32_t covered = s.point_count == 0 ? 0 : *highest + 1;
   if (s.joined.sizes.size() > s.face_count)
     return Status::corrupt("mesh: more faces than announced");
   const auto listed = static_cast<uint32_t>(s.face_count - s.joined.sizes.size());
-  if (plain) {
+  if (topology == nullptr) {
     s.grid.assign(size_t{s.vertex_count} * 3, 0);
   } else if (Status status = code_loose_positions(coder, covered, s.vertex_count, s.grid);
              !status.ok()) {

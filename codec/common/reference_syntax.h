@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -63,6 +64,9 @@ class SplitSyntax {
 /// Which edges between triangles are inside a polygon.
 class DiagonalSyntax {
  public:
+  /// `twins` of the mesh's triangles, see pair_half_edges; empty where they are not known yet.
+  explicit DiagonalSyntax(std::span<const uint32_t> twins) : twins_(twins) {}
+
   template <class Coder>
   Status code(Coder& coder, MeshState& s) {
     const bool any = coder.code(
@@ -73,10 +77,13 @@ class DiagonalSyntax {
       s.joined.corners = s.triangles;
       return {};
     }
-    if (s.twins.empty()) s.twins = pair_half_edges(s.triangles);
+    if (twins_.empty()) {
+      own_twins_ = pair_half_edges(s.triangles);
+      twins_ = own_twins_;
+    }
     known_.resize(s.triangles.size() / 3);
     for (uint32_t h = 0; h < s.triangles.size(); ++h) {
-      const uint32_t twin = s.twins[h];
+      const uint32_t twin = twins_[h];
       if (twin == kNoTwin) {
         ++known_[h / 3].decided;
       } else if (twin > h) {
@@ -84,7 +91,7 @@ class DiagonalSyntax {
         if (ran_dry(coder)) return Status::corrupt("mesh: polygons are cut off");
       }
     }
-    return join_triangles(s.triangles, s.twins, s.diagonal, s.joined)
+    return join_triangles(s.triangles, twins_, s.diagonal, s.joined)
                ? Status()
                : Status::corrupt("mesh: polygons overlap themselves");
   }
@@ -130,6 +137,8 @@ class DiagonalSyntax {
     return sum;
   }
 
+  std::span<const uint32_t> twins_;
+  std::vector<uint32_t> own_twins_;
   std::vector<Known> known_;
   AdaptiveBit models_[81][3];
 };

@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "codec/common/connectivity.h"
-#include "codec/common/mesh_walk.h"
 
 namespace reeb {
 // namespace
@@ -35,14 +34,9 @@ void FreeIndices::take(uint32_t index) {
   --count_;
 }
 
-OrderPredictor::OrderPredictor(uint32_t vertex_count, std::span<const uint32_t> triangles)
-    : vertex_count_(vertex_count),
-      triangles_(triangles),
-      twins_(pair_half_edges(triangles)),
-      fans_(vertex_count, triangles),
-      order_(position_order(vertex_count, triangles)),
-      turn_of_(vertex_count) {
-  for (uint32_t turn = 0; turn < vertex_count; ++turn) turn_of_[order_[turn]] = turn;
+OrderPredictor::OrderPredictor(const TriangleTopology& topology)
+    : topology_(topology), turn_of_(topology.point_count()) {
+  for (uint32_t turn = 0; turn < turn_of_.size(); ++turn) turn_of_[topology.order[turn]] = turn;
 }
 
 void OrderPredictor::guess(uint32_t turn, const std::vector<uint32_t>& output_index,
@@ -51,21 +45,21 @@ void OrderPredictor::guess(uint32_t turn, const std::vector<uint32_t>& output_in
   neighbours_.clear();
   const auto coded = [&](uint32_t v) { return turn_of_[v] < turn; };
   uint32_t kind = kParallelogram;
-  for (const uint32_t h : fans_[order_[turn]]) {
+  for (const uint32_t h : topology_.fans[topology_.order[turn]]) {
     const uint32_t across = next_half_edge(h);
-    const uint32_t a = triangles_[across];
-    const uint32_t b = triangles_[next_half_edge(across)];
+    const uint32_t a = topology_.triangles[across];
+    const uint32_t b = topology_.triangles[next_half_edge(across)];
     if (coded(a)) neighbours_.push_back(turn_of_[a]);
     if (coded(b)) neighbours_.push_back(turn_of_[b]);
-    if (!coded(a) || !coded(b) || twins_[across] == kNoTwin) continue;
-    const uint32_t c = triangles_[next_half_edge(next_half_edge(twins_[across]))];
+    if (!coded(a) || !coded(b) || topology_.twins[across] == kNoTwin) continue;
+    const uint32_t c = topology_.triangles[next_half_edge(next_half_edge(topology_.twins[across]))];
     if (!coded(c)) continue;
     const int64_t index = int64_t{output_index[a]} + output_index[b] - output_index[c];
-    if (index < 0 || index >= vertex_count_) continue;
+    if (index < 0 || index >= topology_.point_count()) continue;
     out.add(kind, int64_t{free.rank(static_cast<uint32_t>(index))} << 8, kScale);
     kind = std::min<uint32_t>(kind + 1, kLastParallelogram);
   }
-  likely_ = turn > 0 ? free.rank(output_index[order_[turn - 1]]) : 0;
+  likely_ = turn > 0 ? free.rank(output_index[topology_.order[turn - 1]]) : 0;
   if (turn > 0) out.add(kPrevious, int64_t{likely_} << 8, kScale);
   guess_neighbours(output_index, free, out);
 }
@@ -77,7 +71,7 @@ void OrderPredictor::guess_neighbours(const std::vector<uint32_t>& output_index,
   neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
   uint32_t kind = kNeighbour;
   for (const uint32_t turn : neighbours_) {
-    const uint32_t rank = free.rank(output_index[order_[turn]]);
+    const uint32_t rank = free.rank(output_index[topology_.order[turn]]);
     if (kind == kNeighbour) likely_ = rank;
     out.add(kind, int64_t{rank} << 8, kScale);
     kind = std::min<uint32_t>(kind + 1, kLastNeighbour);

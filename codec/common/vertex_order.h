@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "bitstream/status.h"
 #include "codec/common/coding_tools.h"
 #include "codec/common/guess_mixture.h"
-#include "codec/common/half_edge_fans.h"
 #include "codec/common/mesh_state.h"
+#include "codec/common/triangle_topology.h"
 
 namespace reeb {
 
@@ -34,7 +33,7 @@ class FreeIndices {
   uint32_t count_;
 };
 
-/// Makes the guesses for each vertex from those before it, in the order of `position_order`.
+/// Makes the guesses for each vertex from those before it, in the order of the topology.
 class OrderPredictor {
  public:
   // Kinds of guesses; the last of each sort stands for all further ones.
@@ -49,12 +48,12 @@ class OrderPredictor {
   static constexpr uint32_t kMemory = 512;    ///< observations, see GuessMixture
   static constexpr uint32_t kScale = 8 << 8;  ///< a step of the error models is one free index
 
-  /// `triangles`: three coding vertices each.
-  OrderPredictor(uint32_t vertex_count, std::span<const uint32_t> triangles);
+  /// `topology`: of the triangles of coding vertices; must outlive the predictor.
+  explicit OrderPredictor(const TriangleTopology& topology);
   void guess(uint32_t turn, const std::vector<uint32_t>& output_index, const FreeIndices& free,
              GuessMixture& out);
   /// The coding vertex whose turn it is.
-  uint32_t vertex(uint32_t turn) const { return order_[turn]; }
+  uint32_t vertex(uint32_t turn) const { return topology_.order[turn]; }
   /// Rank of the best guess after `guess`.
   uint32_t likely() const { return likely_; }
 
@@ -62,21 +61,19 @@ class OrderPredictor {
   void guess_neighbours(const std::vector<uint32_t>& output_index, const FreeIndices& free,
                         GuessMixture& out);
 
-  uint32_t vertex_count_;
+  const TriangleTopology& topology_;
   uint32_t likely_ = 0;
-  std::span<const uint32_t> triangles_;
-  std::vector<uint32_t> twins_;
-  HalfEdgeFans fans_;
-  std::vector<uint32_t> order_, turn_of_;
+  std::vector<uint32_t> turn_of_;
   std::vector<uint32_t> neighbours_;  // turns of the coded ones
 };
 
-/// Codes `output_index` of every coding vertex, a permutation.
+/// Codes `output_index` of every coding vertex, a permutation. `topology`: of the mesh's triangles.
 template <class Coder>
-Status code_vertex_order(Coder& coder, uint32_t vertex_count, std::span<const uint32_t> triangles,
+Status code_vertex_order(Coder& coder, const TriangleTopology& topology,
                          std::vector<uint32_t>& output_index) {
+  const uint32_t vertex_count = topology.point_count();
   FreeIndices free(vertex_count);
-  OrderPredictor predictor(vertex_count, triangles);
+  OrderPredictor predictor(topology);
   GuessMixture guesses(OrderPredictor::kKindCount, OrderPredictor::kMemory);
   output_index.resize(vertex_count);
   for (uint32_t turn = 0; turn < vertex_count; ++turn) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "bitstream/bytes.h"
 #include "bitstream/headers.h"
@@ -45,17 +46,18 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
 }
 
 Status decode_state(const Sections& sections, const Limits& limits, uint64_t max_triangles,
-                    bool plain, MeshState& state) {
+                    bool plain, MeshState& state, std::optional<TriangleTopology>& topology) {
   if (!sections.draco.empty()) {
     DracoMesh mesh;
     if (Status s = decode_draco_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
       return s;
     state.point_count = mesh.point_count;
     state.triangles = std::move(mesh.triangles);
-    if (!plain) state.twins = pair_half_edges(state.triangles);
   }
+  if (!plain) topology.emplace(state.point_count, state.triangles);
   BinaryDecoder coder(sections.rest);
-  return code_rest(coder, state, kMaxCornersPerFace * limits.max_faces, plain);
+  return code_rest(coder, plain ? nullptr : &*topology, state,
+                   kMaxCornersPerFace * limits.max_faces);
 }
 
 Status decode_plain_positions(std::span<const uint8_t> bytes, const MeshWalk& walk,
@@ -80,8 +82,10 @@ Status decode_index_steps(std::span<const uint8_t> bytes, std::span<const uint32
   return {};
 }
 
+/// `topology`: of Draco's triangles and points, which mostly are all triangles and all vertices.
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
-                    std::span<const uint32_t> triangles, std::vector<uint32_t>& output_index) {
+                    std::span<const uint32_t> triangles, std::optional<TriangleTopology>& topology,
+                    std::vector<uint32_t>& output_index) {
   if ((h.flags & MeshHeader::kOrderKept) == 0) {
     if (!bytes.empty()) return Status::corrupt("mesh: an order where none is kept");
     output_index.resize(h.vertex_count);
@@ -92,8 +96,12 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
     output_index.assign(h.vertex_count, 0);
     return decode_index_steps(bytes, triangles, output_index);
   }
+  const bool same = topology->point_count() == h.vertex_count &&
+                    std::equal(triangles.begin(), triangles.end(), topology->triangles.begin(),
+                               topology->triangles.end());
+  if (!same) topology.emplace(h.vertex_count, triangles);
   BinaryDecoder coder(bytes);
-  return code_vertex_order(coder, h.vertex_count, triangles, output_index);
+  return code_vertex_order(coder, *topology, output_index);
 }
 
 /// Puts the faces into the order of the input, where the stream keeps it.
@@ -126,7 +134,9 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   state.face_count = h.face_count;
   const bool plain = (h.flags & MeshHeader::kPlain) != 0;
   const uint64_t max_triangles = kElementsPerByte * bytes.size();
-  if (Status s = decode_state(sections, limits, max_triangles, plain, state); !s.ok()) return s;
+  std::optional<TriangleTopology> topology;
+  if (Status s = decode_state(sections, limits, max_triangles, plain, state, topology); !s.ok())
+    return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
   if (plain) {
@@ -135,9 +145,9 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
     out.surface = contract_mesh(h.vertex_count, out.triangles);
     weigh_rows(GridPoints(state.grid), out.surface);
   }
-  if (Status s = decode_order(h, sections.order, out.triangles, out.output_index); !s.ok()) {
+  if (Status s = decode_order(h, sections.order, out.triangles, topology, out.output_index);
+      !s.ok())
     return s;
-  }
   out.connectivity = collect_faces(state, out.output_index);
   out.grid = std::move(state.grid);
   return decode_face_order(h, sections.faces, out.connectivity);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "bitstream/headers.h"
@@ -165,7 +166,6 @@ MeshState make_state(const Connectivity& input, std::span<const int32_t> grid,
   s.face_count = static_cast<uint32_t>(input.face_sizes.size());
   s.point_count = plan.encoding.mesh.point_count;
   s.triangles = plan.encoding.mesh.triangles;
-  s.twins = plan.twins;
   s.diagonal = plan.diagonal;
   for (const uint32_t v : plan.encoding.vertex_of) {
     s.vertex_of_point.push_back(coding[v]);
@@ -197,8 +197,9 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, 
     return {};
   }
   BinaryEncoder coder;
+  const std::vector<uint32_t> triangles = collect_triangles(state);
   Status status =
-      code_vertex_order(coder, state.vertex_count, collect_triangles(state), output_index);
+      code_vertex_order(coder, TriangleTopology(state.vertex_count, triangles), output_index);
   bytes = coder.finish();
   return status;
 }
@@ -222,7 +223,9 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
   std::vector<uint8_t> positions;
   if (options.plain) positions = write_plain_positions(state);
   constexpr uint64_t kAny = std::numeric_limits<uint64_t>::max();
-  if (Status s = code_rest(coder, state, kAny, options.plain); !s.ok()) return s;
+  std::optional<TriangleTopology> topology;
+  if (!options.plain) topology.emplace(state.point_count, state.triangles);
+  if (Status s = code_rest(coder, topology ? &*topology : nullptr, state, kAny); !s.ok()) return s;
   std::vector<uint8_t> rest = coder.finish();
   // Zeros at the end of a range code mean nothing; they keep extreme meshes within the decoder's
   // bound.

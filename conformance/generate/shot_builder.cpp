@@ -137,7 +137,8 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   state.grid.assign(grid.begin(), grid.end());
   state.listed = {connectivity.face_sizes, connectivity.corners};
   BinaryEncoder coder;
-  require(code_rest(coder, state, std::numeric_limits<uint64_t>::max(), false));
+  const TriangleTopology no_triangles(0, {});
+  require(code_rest(coder, &no_triangles, state, std::numeric_limits<uint64_t>::max()));
   const Bytes rest = coder.finish();
   const MeshHeader header = {state.vertex_count, state.face_count, 0, 0, rest.size(), 0};
   Bytes bytes;

@@ -1,6 +1,7 @@
 #include "codec/common/connectivity.h"
 
 #include <catch2/catch.hpp>
+#include <random>
 
 using namespace reeb;
 using List = std::vector<uint32_t>;
@@ -58,4 +59,27 @@ TEST_CASE("a closed surface of diagonals is no polygon", "[connectivity]") {
   const std::vector<uint8_t> diagonal(triangles.size(), 1);
   Polygons out;
   CHECK_FALSE(join_triangles(triangles, twins, diagonal, out));
+}
+
+TEST_CASE("twins of any triangles are those that the definition gives", "[connectivity]") {
+  std::mt19937 random(4);
+  for (int round = 0; round < 200; ++round) {
+    const auto vertices = static_cast<uint32_t>(3 + random() % 9);
+    List triangles;  // some with two equal corners
+    for (uint32_t i = 0; i < 3 * (random() % 12); ++i)
+      triangles.push_back(static_cast<uint32_t>(random() % vertices));
+    triangles.resize(triangles.size() / 3 * 3);
+    const List twins = pair_half_edges(triangles);
+    REQUIRE(twins.size() == triangles.size());
+    for (uint32_t h = 0; h < triangles.size(); ++h) {
+      const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
+      List others;  // along the same edge
+      for (uint32_t k = 0; k < triangles.size(); ++k) {
+        const uint32_t c = triangles[k], d = triangles[next_half_edge(k)];
+        if (k != h && ((a == c && b == d) || (a == d && b == c))) others.push_back(k);
+      }
+      const bool paired = a != b && others.size() == 1 && triangles[others[0]] == b;
+      REQUIRE(twins[h] == (paired ? others[0] : kNoTwin));
+    }
+  }
 }

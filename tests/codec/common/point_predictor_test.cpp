@@ -3,8 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "codec/common/connectivity.h"
-#include "codec/common/mesh_walk.h"
 #include "entropy/range_coder.h"
 
 using namespace reeb;
@@ -28,16 +26,16 @@ List grid_triangles(uint32_t n) {
 template <class Height>
 double bits_per_vertex(uint32_t n, Height height) {
   const List triangles = grid_triangles(n);
-  const List twins = pair_half_edges(triangles);
+  const TriangleTopology topology(n * n, triangles);
   std::vector<int32_t> grid;
   for (uint32_t v = 0; v < n * n; ++v) {
     const auto x = static_cast<int32_t>(v % n * 20), y = static_cast<int32_t>(v / n * 20);
     grid.insert(grid.end(), {x, y, height(x, y)});
   }
-  PointPredictor predictor(n * n, triangles, twins);
+  PointPredictor predictor(topology);
   GuessMixture guesses(PointPredictor::kKindCount, PointPredictor::kMemory);
   BinaryEncoder coder;
-  for (const uint32_t p : position_order(n * n, triangles)) {
+  for (const uint32_t p : topology.order) {
     predictor.start(p, grid);
     for (size_t axis = 0; axis < 3; ++axis) {
       const int32_t x = grid[p * 3 + axis];

@@ -17,12 +17,12 @@ std::vector<uint32_t> code_order(const std::vector<uint32_t>& order,
   std::vector<uint32_t> copy = order;
   const auto n = static_cast<uint32_t>(order.size());
   BinaryEncoder encoder;
-  REQUIRE(code_vertex_order(encoder, n, triangles, copy).ok());
+  REQUIRE(code_vertex_order(encoder, TriangleTopology(n, triangles), copy).ok());
   const std::vector<uint8_t> bytes = encoder.finish();
   bits = 8.0 * static_cast<double>(bytes.size());
   BinaryDecoder decoder(bytes);
   std::vector<uint32_t> decoded;
-  REQUIRE(code_vertex_order(decoder, n, triangles, decoded).ok());
+  REQUIRE(code_vertex_order(decoder, TriangleTopology(n, triangles), decoded).ok());
   return decoded;
 }
 
@@ -106,10 +106,11 @@ TEST_CASE("an order that is cut off is an error or a permutation", "[vertex_orde
   const auto order = shuffled(300, 8);
   std::vector<uint32_t> copy = order;
   BinaryEncoder encoder;
-  REQUIRE(code_vertex_order(encoder, 300, {}, copy).ok());
+  REQUIRE(code_vertex_order(encoder, TriangleTopology(300, {}), copy).ok());
   const std::vector<uint8_t> bytes = encoder.finish();
   const std::span<const uint8_t> half(bytes.data(), bytes.size() / 2);
   BinaryDecoder decoder(half);
   std::vector<uint32_t> decoded;
-  CHECK(code_vertex_order(decoder, 300, {}, decoded).code() == StatusCode::kCorrupt);
+  CHECK(code_vertex_order(decoder, TriangleTopology(300, {}), decoded).code() ==
+        StatusCode::kCorrupt);
 }
