@@ -55,9 +55,8 @@ void learn_displacement(DisplacementBatch& batch, const DisplacementFrame& frame
 
 void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]) {
   const uint32_t n = batch.count;
-  Lanes a[kTriangle];
-  Lanes inverse[kMaxNeighbours];
-  Lanes w[kMaxNeighbours];
+  Lanes a[kSystem];
+  Lanes* const w = a + packed(n, 0);
   Lanes trace{};
   for (uint32_t i = 0; i < n; ++i) trace += batch.matrix[packed(i, i)];
   const Lanes by_error = batch.energy * kInverseVariance;
@@ -68,8 +67,7 @@ void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]
     a[packed(i, i)] += ridge;
     w[i] = batch.target[i] + ridge * batch.prior[i];
   }
-  factorise(n, a, inverse);
-  substitute(n, a, inverse, w);
+  solve_system<1>(n, a);
   for (uint32_t i = 0; i < n; ++i) {
     const Lanes zero{};
     w[i] = w[i] < kLargestWeight && w[i] > -kLargestWeight ? w[i] : zero;

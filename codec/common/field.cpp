@@ -80,7 +80,7 @@ void Field::expect(uint32_t components) {
 }
 
 std::vector<std::vector<float>> Field::next_group() {
-  if (options_.adaptive) estimator_.fade(kFading);
+  if (options_.adaptive) estimator_.fade(kFading, planes_);
   std::vector<std::vector<float>> planes = take_planes();
   planes_.clear();
   for (auto* magnitudes : {&last_, &history_}) std::fill(magnitudes->begin(), magnitudes->end(), 0);
@@ -109,7 +109,7 @@ void Field::finish_component(double energy, bool learns) {
   if (!learns) return;
   const uint32_t fine_rows = rows - rows / 4;
   estimator_.finish_component(options_.noise_share * (energy / fine_rows) + options_.noise_floor);
-  estimator_.solve(misses_to_solve(component_count() - 1));
+  estimator_.solve(misses_to_solve(component_count() - 1), planes_);
 }
 
 }  // namespace reeb

@@ -118,10 +118,10 @@ inline Surroundings Field::surroundings(uint32_t row) const {
 
 template <class Residual>
 void Field::code_component(Residual&& residual) {
-  if (planes_.empty() && options_.predict) estimator_.solve(1);
+  if (planes_.empty() && options_.predict) estimator_.solve(1, planes_);
   const auto rows = static_cast<uint32_t>(magnitude_.size());
   const bool learns = component_count() < learned_components_;
-  if (learns) estimator_.begin_component();
+  if (learns) estimator_.begin_component(planes_);
   std::vector<float>& plane = planes_.emplace_back(rows);
   double energy = 0;
   for (uint32_t row = 0; row < rows; ++row) {
@@ -137,10 +137,10 @@ void Field::code_component(Residual&& residual) {
       if (row >= rows / 4)
         energy += static_cast<double>(correction) * static_cast<double>(correction);
       note(row, n);
+      if (learns) estimator_.miss(row);
     }
     recent_ -= recent_ / kRecent;
     plane[row] = value;
-    if (learns) estimator_.note(row, value, n == 0);
   }
   finish_component(energy, learns);
 }

@@ -19,40 +19,27 @@ constexpr uint32_t packed(uint32_t i, uint32_t j) { return i * (i + 1) / 2 + j; 
 
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
-/// Normal equations of eight rows.
-struct alignas(64) WeightBatch {
-  Lanes matrix[kTriangle];          ///< sum of y y^T / noise
-  Lanes target[kMaxNeighbours];     ///< sum of y t / noise
-  Lanes prior[kMaxNeighbours];      ///< prior weight
-  Lanes precision[kMaxNeighbours];  ///< 1 / deviation^2
-  Lanes in_use[kMaxNeighbours];     ///< 1 where there is a neighbour, 0 for padding
-  uint32_t count = 0;               ///< largest number of neighbours among the eight
-};
-
-/// Adds the reference positions of eight rows: y[i] is where neighbour i lies from the row, 0 for
-/// padding.
-using ObservePointsKernel = void (*)(WeightBatch&, const Lanes (*y)[3], const Lanes& inverse_noise);
-
-/// The same of one row as it is kept while others are solved: entry (i, j), j <= i, of the matrix
-/// is strip[i][j] for i < 8; for i >= 8, strip[i][j] left of column 8, strip[16][i - 8] on the
-/// diagonal, strip[15 - i][16 - i + j - 8] between them, which fills the rows above.
+/// The matrix of a row's normal equations, sum of y y^T / noise: entry (i, j), j <= i, of the
+/// matrix is strip[i][j] for i < 8; for i >= 8, strip[i][j] left of column 8, strip[16][i - 8] on
+/// the diagonal, strip[15 - i][16 - i + j - 8] between them, which fills the rows above.
 struct alignas(64) RowEquations {
   Lanes strip[kMaxNeighbours + 1];
 };
 /// Their right sides, which are 0 where weights sum to one.
 using RowTarget = std::array<double, kMaxNeighbours>;
 
-/// From and to the equations of the rows of a batch, without targets.
-using LoadEquationsKernel = void (*)(WeightBatch&, const RowEquations* const rows[kLanes]);
-using StoreEquationsKernel = void (*)(const WeightBatch&, RowEquations* const rows[kLanes]);
+/// Leaves what the reference positions tell of eight rows in their equations: y[i] is where
+/// neighbour i < n lies from the row, 0 for padding.
+using ObservePointsKernel = void (*)(const Lanes (*y)[3], const Lanes& inverse_noise, uint32_t n,
+                                     RowEquations* const rows[kLanes]);
 
-/// Observations that are kept before every row has learned from them.
+/// Components that rows may learn from together.
 inline constexpr uint32_t kObservations = 16;
 
 /// What a row is to learn from.
 struct FoldTask {
-  const float* values;  ///< [row][observation]
-  const double* scale;  ///< of each observation: its noise is 1 then
+  const float* const* planes;  ///< of each observation, a value for each row
+  const double* scale;         ///< of each observation: its noise is 1 then
   const uint32_t* neighbour;
   uint32_t count;  ///< neighbours
   uint32_t row;
@@ -62,8 +49,17 @@ struct FoldTask {
 /// Adds the observations, one after another. `target`: null where weights sum to one.
 using FoldKernel = void (*)(RowEquations&, double* target, const FoldTask&);
 
-/// Solves and writes the weights of lane l to out[l].
-using SolveKernel = void (*)(const WeightBatch&, bool sum_to_one, float* const out[kLanes]);
+/// What the weights of rows come from.
+struct SolveTask {
+  const PredictionGraph::Row* rows;
+  const RowEquations* equations;
+  const RowTarget* targets;  ///< null where weights sum to one
+  double ring_precision;     ///< 1 / deviation^2 of a ring neighbour's weight
+  double extra_precision;    ///< of any other neighbour's
+};
+
+/// Weights of kLanes rows, kMaxNeighbours of the l-th to out[l], 0 for padding.
+using SolveKernel = void (*)(const SolveTask&, const uint32_t* rows, float* const* out);
 
 inline constexpr uint32_t kTileRows = 64;
 
@@ -129,8 +125,6 @@ using DecodeLanesKernel = void (*)(LaneBlock&, RansDecoder&, uint32_t lanes);
 
 struct Kernels {
   ObservePointsKernel observe_points;
-  LoadEquationsKernel load_equations;
-  StoreEquationsKernel store_equations;
   FoldKernel fold;
   SolveKernel solve;
   CombineKernel combine;

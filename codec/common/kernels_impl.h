@@ -95,8 +95,7 @@ void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels = {observe_points, load_equations, store_equations, fold,
-                          solve,          combine,        guess_lanes,     note_lanes,
-                          decode_lanes,   learn_lanes};
+const Kernels kKernels = {observe_points, fold,       solve,        combine,
+                          guess_lanes,    note_lanes, decode_lanes, learn_lanes};
 
 }  // namespace reeb::REEB_KERNEL_NAMESPACE

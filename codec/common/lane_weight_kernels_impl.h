@@ -110,8 +110,9 @@ inline void learn_values(const LaneRows& rows, const float* values, LanesF* a) {
   }
 }
 
-/// Adds what is expected of the weights to `a`; w: right side, b: 1 where there is a neighbour.
-inline void expect(const LaneRows& rows, LanesF* a, LanesF* w, LanesF* b) {
+/// Adds what is expected of the weights to the matrix, and writes the right sides: w, and ones
+/// where there is a neighbour.
+inline void expect(const LaneRows& rows, LanesF* a) {
   constexpr float kRing = 0.25f;
   constexpr float kBeyond = 0.625f;
   LanesF prior[kMaxNeighbours];
@@ -122,13 +123,15 @@ inline void expect(const LaneRows& rows, LanesF* a, LanesF* w, LanesF* b) {
     gather_eight([&](uint32_t l) { return load<Floats8>(elements(rows.row[l]->precision) + i); },
                  precision + i);
   }
+  LanesF* const w = a + packed(rows.count, 0);
+  LanesF* const ones = a + packed(rows.count + 1, 0);
   const LanesF zero{};
   for (uint32_t i = 0; i < rows.count; ++i) {
     const LanesF scale = static_cast<int32_t>(i) < rows.rings ? zero + kRing : zero + kBeyond;
     const LanesF sure = precision[i] * scale;
     a[packed(i, i)] += sure;
     w[i] = prior[i] * sure;
-    b[i] = static_cast<float>(i) < rows.counts ? zero + 1.0f : zero;
+    ones[i] = static_cast<float>(i) < rows.counts ? zero + 1.0f : zero;
   }
 }
 
@@ -149,19 +152,17 @@ inline void store_weights(const LanesF* w, float* const* out) {
 
 inline void learn_together(const LaneWeightTask& task, const uint32_t* indices, float* const* out) {
   const LaneRows rows = rows_of(task, indices);
-  LanesF a[kTriangle];
-  LanesF inverse[kMaxNeighbours];
-  LanesF w[kMaxNeighbours] = {};
-  LanesF b[kMaxNeighbours];
+  const uint32_t n = rows.count;
+  LanesF a[kSystem];
   learn_points(task, rows, a);
   if (task.first_values != nullptr) learn_values(rows, task.first_values, a);
   if (task.values != nullptr) learn_values(rows, task.values, a);
   if (task.first_values != nullptr) learn_values(rows, task.values + 8, a);
-  expect(rows, a, w, b);
-  factorise(rows.count, a, inverse);
-  substitute(rows.count, a, inverse, w);
-  substitute(rows.count, a, inverse, b);
-  constrain(rows.count, w, b);
+  expect(rows, a);
+  solve_system<2>(n, a);
+  constrain(n, a + packed(n, 0), a + packed(n + 1, 0));
+  LanesF w[kMaxNeighbours] = {};
+  for (uint32_t i = 0; i < n; ++i) w[i] = a[packed(n, i)];
   store_weights(w, out);
 }
 

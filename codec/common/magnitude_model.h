@@ -49,47 +49,70 @@ class MagnitudeModel {
     return out;
   }
 
-  /// Table entries that the surroundings choose.
+  /// Decisions that a bucket is found by. Each asks whether the bucket is beyond some other.
+  static constexpr uint32_t kNodes = 2 * kBins;
+  static constexpr uint32_t kCalmNode = kNodes;  ///< is not mixed
+
+  /// Where the tables begin that the surroundings choose.
   struct Context {
-    std::array<uint32_t, kTables> entry;
+    std::array<uint32_t, kTables> table;
     uint32_t escape;
+    bool wide;  ///< much is expected, and little known of how much
   };
 
-  /// Predictions for the unary decisions of one residual, made when first asked for.
+  /// Predictions for the decisions of one residual, made when first asked for.
   class Bins {
    public:
     Bins(const MagnitudeModel& model, const Surroundings& s)
-        : model_(model),
-          around_(s),
-          calm_(MagnitudeModel::calm_class(s)),
-          first_(calm_ < kCalmClasses) {}
+        : model_(model), around_(s), calm_(MagnitudeModel::calm_class(s)) {}
 
-    bool calm() const { return first_ > 0; }
     uint32_t calm_class() const { return calm_; }
 
-    /// Probability that the bucket is beyond i.
-    Probability p1(uint32_t i) { return i < first_ ? model_.calm_[calm_].p1() : mixed(i).p1; }
-
-    /// i > 0 where it is calm.
-    const Mixer::Prediction& mixed(uint32_t i) {
-      if (made_ == 0) {
-        context_ = context(around_);
-        made_ = first_;
-      }
-      for (; made_ <= i; ++made_) bins_[made_] = model_.predict(context_, made_);
-      return bins_[i];
+    /// Finds a bucket: `decide(node, b)` tells whether it is beyond b. In unary; where it is wide,
+    /// by fours first.
+    template <class Decide>
+    uint32_t find(Decide decide) {
+      const bool calm = calm_ < kCalmClasses;
+      if (calm && !decide(kCalmNode, 0)) return 0;
+      if (made_ == 0) context_ = context(around_);
+      if (context_.wide) return find_wide(decide);
+      uint32_t b = calm ? 1 : 0;
+      while (b < kBins && decide(b, b)) ++b;
+      return b;
     }
-    /// Pre-condition: `mixed` was called.
+
+    /// Probability that the answer is yes.
+    Probability p1(uint32_t node) {
+      return node == kCalmNode ? model_.calm_[calm_].p1() : mixed(node).p1;
+    }
+
+    /// node < kNodes.
+    const Mixer::Prediction& mixed(uint32_t node) {
+      if ((made_ >> node & 1) == 0) made_predictions_[node] = model_.predict(context_, node);
+      made_ |= uint64_t{1} << node;
+      return made_predictions_[node];
+    }
+    /// Pre-condition: `find` found a bucket beyond 0.
     uint32_t escape() const { return context_.escape; }
 
    private:
+    template <class Decide>
+    static uint32_t find_wide(Decide decide) {
+      uint32_t four = 0;
+      while (four < kBins && decide(kBins + four, four + 3)) four += 4;
+      if (four == kBins) return kBins;
+      const uint32_t node = kBins + four;
+      const bool upper = decide(node + 1, four + 1);
+      const uint32_t two = upper ? four + 2 : four;
+      return decide(node + (upper ? 3 : 2), two) ? two + 1 : two;
+    }
+
     const MagnitudeModel& model_;
     const Surroundings& around_;
     uint32_t calm_;
-    uint32_t first_;  ///< mixed bin
-    uint32_t made_ = 0;
+    uint64_t made_ = 0;  ///< a bit for each node
     Context context_;
-    std::array<Mixer::Prediction, kBins> bins_;
+    std::array<Mixer::Prediction, kNodes> made_predictions_;
   };
 
   MagnitudeModel();
@@ -109,14 +132,13 @@ class MagnitudeModel {
   int64_t code(Coder& coder, Bins& bins, int64_t value) {
     const auto wanted = static_cast<uint64_t>(value < 0 ? -value : value);
     const uint32_t wanted_bucket = std::min(kBins, MagnitudeBuckets::of(wanted));
-    uint32_t b = 0;
-    if (bins.calm() && !calm_[bins.calm_class()].code(coder, wanted > 0)) return 0;
-    if (bins.calm()) b = 1;
-    for (bool more = true; b < kBins && more; b += more ? 1 : 0) {
-      const Mixer::Prediction& bin = bins.mixed(b);
-      more = coder.code(b < wanted_bucket, bin.p1);
-      mixer_.update(bin, more);
-    }
+    const uint32_t b = bins.find([&](uint32_t node, uint32_t than) {
+      if (node == kCalmNode) return calm_[bins.calm_class()].code(coder, wanted_bucket > than);
+      const Mixer::Prediction& made = bins.mixed(node);
+      const bool bit = coder.code(wanted_bucket > than, made.p1);
+      mixer_.update(made, bit);
+      return bit;
+    });
     if (b == 0) return 0;
     const uint64_t within = wanted - MagnitudeBuckets::begin(b);
     const uint64_t magnitude =
@@ -136,13 +158,14 @@ class MagnitudeModel {
 
   // Contexts of each table.
   static constexpr std::array<uint32_t, kTables> kContexts = {12 * 12, 24, 8 * 12, 12 * 12};
+  static constexpr uint32_t kWideClass = 10;  ///< of the 24 of table 1
   static constexpr uint32_t kAdaptationLimit = 40;
 
   static Context context(const Surroundings& s);
-  Mixer::Prediction predict(const Context& c, uint32_t bin) const {
+  Mixer::Prediction predict(const Context& c, uint32_t node) const {
     std::array<uint32_t, kTables> entries;
-    for (uint32_t i = 0; i < kTables; ++i) entries[i] = bin * kContexts[i] + c.entry[i];
-    Mixer::Prediction made = mixer_.predict(entries, bin);
+    for (uint32_t i = 0; i < kTables; ++i) entries[i] = c.table[i] + node;
+    Mixer::Prediction made = mixer_.predict(entries, node);
     if (!uses(coding_tool::kMixing)) made.p1 = squash(made.input[0]);
     return made;
   }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "codec/common/kernels.h"
+#include "codec/common/lane_solver_impl.h"
 #include "codec/common/vector_load.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
@@ -70,23 +70,23 @@ inline void for_each_entry(uint32_t strip, uint32_t n, Function function) {
 /// The last strip in use, and one more.
 inline uint32_t strip_count(uint32_t n) { return n <= 8 ? 8 : kMaxNeighbours + 1; }
 
-void load_equations(WeightBatch& batch, const RowEquations* const rows[kLanes]) {
+inline void load_equations(const RowEquations* equations, const uint32_t* rows, uint32_t n,
+                           Lanes* matrix) {
   Lanes in[8];
   Lanes out[8];
-  for (uint32_t strip = 0; strip < strip_count(batch.count); ++strip) {
-    for (uint32_t l = 0; l < kLanes; ++l) in[l] = rows[l]->strip[strip];
+  for (uint32_t strip = 0; strip < strip_count(n); ++strip) {
+    for (uint32_t l = 0; l < kLanes; ++l) in[l] = equations[rows[l]].strip[strip];
     transpose(in, out);
-    for_each_entry(strip, batch.count,
-                   [&](uint32_t k, uint32_t entry) { batch.matrix[entry] = out[k]; });
+    for_each_entry(strip, n, [&](uint32_t k, uint32_t entry) { matrix[entry] = out[k]; });
   }
 }
 
-void store_equations(const WeightBatch& batch, RowEquations* const rows[kLanes]) {
+inline void store_equations(const Lanes* matrix, RowEquations* const rows[kLanes]) {
   Lanes in[8];
   Lanes out[8];
-  for (uint32_t strip = 0; strip < strip_count(batch.count); ++strip) {
+  for (uint32_t strip = 0; strip <= kMaxNeighbours; ++strip) {
     for_each_entry(strip, kMaxNeighbours,
-                   [&](uint32_t k, uint32_t entry) { in[k] = batch.matrix[entry]; });
+                   [&](uint32_t k, uint32_t entry) { in[k] = matrix[entry]; });
     transpose(in, out);
     for (uint32_t l = 0; l < kLanes; ++l) rows[l]->strip[strip] = out[l];
   }
@@ -99,28 +99,15 @@ struct Said {
 };
 
 inline void collect(const FoldTask& task, bool to_one, Said& said) {
-  for (uint32_t o = task.begin / 8 * 8; o < task.end; o += 8) {
-    // Mostly but a few of the eight are asked for.
-    const uint32_t first = task.begin > o ? task.begin - o : 0;
-    const uint32_t last = task.end < o + 8 ? task.end - o : 8;
-    const Floats8 self = load<Floats8>(task.values + size_t{task.row} * kObservations + o);
-    for (uint32_t k = first; k < last; ++k) said.self[o + k] = static_cast<double>(self[k]);
-    const Floats8 padding = to_one ? self : Floats8{};
-    for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
-      Floats8 in[8];
-      Floats8 out[8];
-      for (uint32_t k = 0; k < 8; ++k) {
-        const bool used = i + k < task.count;
-        in[k] = used
-                    ? load<Floats8>(task.values + size_t{task.neighbour[i + k]} * kObservations + o)
-                    : padding;
-      }
-      transpose(in, out);
-      for (uint32_t k = first; k < last; ++k) {
-        const Lanes value = __builtin_convertvector(out[k], Lanes);
-        const Lanes y = (to_one ? value - said.self[o + k] : value) * task.scale[o + k];
-        std::memcpy(&said.y[o + k][i], &y, sizeof y);
-      }
+  for (uint32_t o = task.begin; o < task.end; ++o) {
+    const float* plane = task.planes[o];
+    float value[kMaxNeighbours] = {};
+    for (uint32_t i = 0; i < task.count; ++i) value[i] = plane[task.neighbour[i]];
+    const double self = static_cast<double>(plane[task.row]);
+    said.self[o] = self;
+    for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
+      const double v = static_cast<double>(value[i]);
+      said.y[o][i] = i < task.count ? (to_one ? v - self : v) * task.scale[o] : 0;
     }
   }
 }
@@ -206,90 +193,107 @@ void fold(RowEquations& row, double* target, const FoldTask& task) {
   }
 }
 
-void observe_points(WeightBatch& batch, const Lanes (*y)[3], const Lanes& inverse_noise) {
-  for (uint32_t i = 0; i < batch.count; ++i) {
+void observe_points(const Lanes (*y)[3], const Lanes& inverse_noise, uint32_t n,
+                    RowEquations* const rows[kLanes]) {
+  Lanes matrix[kTriangle] = {};
+  for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j <= i; ++j) {
       const Lanes dot = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2];
-      batch.matrix[packed(i, j)] += dot * inverse_noise;
+      matrix[packed(i, j)] = dot * inverse_noise;
     }
   }
+  store_equations(matrix, rows);
 }
 
-/// A = L D L^T in place: L below the diagonal, 1/D in `inverse`. Where rounding has eaten a pivot
-/// its 1/D is 0, which takes the neighbour out of the system. `V`: rows, in binary64 or binary32.
-template <class V>
-inline void factorise(uint32_t n, V* a, V* inverse) {
-  using Real = std::remove_reference_t<decltype(a[0][0])>;
-  constexpr auto kLeastPivot = static_cast<Real>(sizeof(Real) == 8 ? 0x1p-42 : 0x1p-20);
-  const V zero{};
-  const V one = zero + 1;
-  V scaled[kMaxNeighbours];
-  V diagonal[kMaxNeighbours];
-  for (uint32_t j = 0; j < n; ++j) {
-    V d = a[packed(j, j)];
-    const V floor = d * kLeastPivot;
-    for (uint32_t k = 0; k < j; ++k) {
-      scaled[k] = a[packed(j, k)] * diagonal[k];
-      d -= a[packed(j, k)] * scaled[k];
-    }
-    diagonal[j] = d > floor ? d : zero;
-    inverse[j] = d > floor ? one / (d > floor ? d : one) : zero;
-    for (uint32_t i = j + 1; i < n; ++i) {
-      V t = a[packed(i, j)];
-      for (uint32_t k = 0; k < j; ++k) t -= a[packed(i, k)] * scaled[k];
-      a[packed(i, j)] = t * inverse[j];
-    }
-  }
-}
+/// The rows of the lanes.
+struct SolveRows {
+  const PredictionGraph::Row* row[kLanes];
+  uint32_t index[kLanes];
+  uint32_t count = 0;  ///< the most neighbours that one has
+  Lanes counts;
+  Lanes rings;
+};
 
-/// Solves L D L^T x = x in place.
-template <class V>
-inline void substitute(uint32_t n, const V* a, const V* inverse, V* x) {
-  for (uint32_t i = 1; i < n; ++i) {
-    for (uint32_t k = 0; k < i; ++k) x[i] -= a[packed(i, k)] * x[k];
-  }
-  for (uint32_t i = 0; i < n; ++i) x[i] *= inverse[i];
-  for (uint32_t i = n; i-- > 0;) {
-    for (uint32_t k = i + 1; k < n; ++k) x[i] -= a[packed(k, i)] * x[k];
-  }
-}
-
-/// w += b (1 - sum w) / sum b: the multiplier of the constraint that the weights sum to one.
-template <class V>
-inline void constrain(uint32_t n, V* w, const V* b) {
-  V sum_w{};
-  V sum_b{};
-  for (uint32_t i = 0; i < n; ++i) {
-    sum_w += w[i];
-    sum_b += b[i];
-  }
-  const V zero{};
-  const V one = zero + 1;
-  const V factor = sum_b > zero ? (one - sum_w) / (sum_b > zero ? sum_b : one) : zero;
-  for (uint32_t i = 0; i < n; ++i) w[i] += b[i] * factor;
-}
-
-void solve(const WeightBatch& batch, bool sum_to_one, float* const out[kLanes]) {
-  const uint32_t n = batch.count;
-  Lanes a[kTriangle];
-  Lanes inverse[kMaxNeighbours];
-  Lanes w[kMaxNeighbours];
-  Lanes b[kMaxNeighbours];
-  for (uint32_t i = 0; i < n; ++i) {
-    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = batch.matrix[packed(i, j)];
-    a[packed(i, i)] += batch.precision[i];
-    w[i] = batch.prior[i] * batch.precision[i] + batch.target[i];
-    b[i] = batch.in_use[i];
-  }
-  factorise(n, a, inverse);
-  substitute(n, a, inverse, w);
-  if (sum_to_one) {
-    substitute(n, a, inverse, b);
-    constrain(n, w, b);
-  }
+inline SolveRows rows_of(const SolveTask& task, const uint32_t* rows) {
+  SolveRows out;
   for (uint32_t l = 0; l < kLanes; ++l) {
-    for (uint32_t i = 0; i < n; ++i) out[l][i] = static_cast<float>(w[i][l]);
+    out.index[l] = rows[l];
+    out.row[l] = task.rows + rows[l];
+    out.count = out.row[l]->count > out.count ? out.row[l]->count : out.count;
+    out.counts[l] = out.row[l]->count;
+    out.rings[l] = out.row[l]->ring;
   }
+  return out;
+}
+
+/// out[k], for k < 8: the k-th of the floats at from(lane), of every lane.
+template <class From>
+inline void gather_lanes(From from, Lanes* out) {
+  Floats8 in[8];
+  Floats8 turned[8];
+  for (uint32_t l = 0; l < kLanes; ++l) in[l] = load<Floats8>(from(l));
+  transpose(in, turned);
+  for (uint32_t k = 0; k < 8; ++k) out[k] = __builtin_convertvector(turned[k], Lanes);
+}
+
+/// Adds what is expected of the weights to the matrix, and writes the right sides: w, and ones
+/// where there is a neighbour.
+inline void expect(const SolveTask& task, const SolveRows& rows, Lanes* a) {
+  const uint32_t n = rows.count;
+  Lanes* const w = a + packed(n, 0);
+  Lanes* const ones = a + packed(n + 1, 0);
+  const Lanes zero{};
+  for (uint32_t first = 0; first < n; first += 8) {
+    Lanes prior[8];
+    Lanes precision[8];
+    gather_lanes([&](uint32_t l) { return elements(rows.row[l]->prior) + first; }, prior);
+    gather_lanes([&](uint32_t l) { return elements(rows.row[l]->precision) + first; }, precision);
+    for (uint32_t k = 0; k < 8 && first + k < n; ++k) {
+      const uint32_t i = first + k;
+      const Lanes place = zero + static_cast<double>(i);
+      const Lanes sure = precision[k] * (place < rows.rings ? zero + task.ring_precision
+                                                            : zero + task.extra_precision);
+      a[packed(i, i)] += sure;
+      w[i] = prior[k] * sure;
+      ones[i] = place < rows.counts ? zero + 1 : zero;
+    }
+  }
+}
+
+inline void add_targets(const SolveTask& task, const SolveRows& rows, Lanes* w) {
+  for (uint32_t l = 0; l < kLanes; ++l) {
+    const double* target = elements(task.targets[rows.index[l]]);
+    for (uint32_t i = 0; i < rows.count; ++i) w[i][l] += target[i];
+  }
+}
+
+inline void store_weights(const Lanes* w, float* const* out) {
+  for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
+    Floats8 in[8];
+    Floats8 turned[8];
+    for (uint32_t k = 0; k < 8; ++k) in[k] = __builtin_convertvector(w[i + k], Floats8);
+    transpose(in, turned);
+    for (uint32_t l = 0; l < kLanes; ++l) std::memcpy(out[l] + i, &turned[l], sizeof turned[l]);
+  }
+}
+
+void solve(const SolveTask& task, const uint32_t* indices, float* const* out) {
+  const SolveRows rows = rows_of(task, indices);
+  const bool to_one = task.targets == nullptr;
+  const uint32_t n = rows.count;
+  Lanes a[kSystem];
+  load_equations(task.equations, rows.index, n, a);
+  expect(task, rows, a);
+  if (to_one) {
+    solve_system<2>(n, a);
+    constrain(n, a + packed(n, 0), a + packed(n + 1, 0));
+  } else {
+    add_targets(task, rows, a + packed(n, 0));
+    solve_system<1>(n, a);
+  }
+  Lanes w[kMaxNeighbours] = {};
+  for (uint32_t i = 0; i < n; ++i) w[i] = a[packed(n, i)];
+  store_weights(w, out);
 }
 
 }  // namespace

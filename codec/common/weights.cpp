@@ -1,7 +1,9 @@
 #include "codec/common/weights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "codec/common/parallel.h"
 
@@ -9,35 +11,21 @@ namespace reeb {
 
 namespace {
 
-void init_lane(WeightBatch& batch, uint32_t lane, const PredictionGraph::Row& row,
-               const WeightOptions& options) {
-  batch.count = std::max(batch.count, uint32_t{row.count});
-  for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
-    const double deviation = i < row.ring ? options.ring_deviation : options.extra_deviation;
-    batch.prior[i][lane] = static_cast<double>(row.prior[i]);
-    batch.precision[i][lane] = static_cast<double>(row.precision[i]) / (deviation * deviation);
-    batch.in_use[i][lane] = i < row.count ? 1.0 : 0.0;
-  }
-}
-
-void init_batch(WeightBatch& batch, const uint32_t rows[kLanes], const PredictionGraph& graph,
-                const WeightOptions& options) {
-  batch.count = 0;
-  for (uint32_t lane = 0; lane < kLanes; ++lane)
-    init_lane(batch, lane, graph.rows[rows[lane]], options);
-}
-
 /// The positions are exact to half a grid unit and to the surface's bending.
-void observe_batch(const PredictionGraph& graph, const GridPoints& points,
-                   const std::vector<uint32_t>& order, const uint32_t rows[kLanes],
-                   const Kernels& kernels, WeightBatch& batch) {
+void observe_rows(const PredictionGraph& graph, const GridPoints& points,
+                  const std::vector<uint32_t>& order, const uint32_t rows[kLanes],
+                  const Kernels& kernels, BatchVector<RowEquations>& equations) {
   constexpr double kGridVariance = 0.25;  // of half a grid unit
   constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
   Lanes y[kMaxNeighbours][3] = {};
   Lanes inverse_noise{};
+  RowEquations* out[kLanes];
+  uint32_t most = 0;
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
     const uint32_t r = rows[lane];
     const PredictionGraph::Row& row = graph.rows[r];
+    out[lane] = &equations[r];
+    most = std::max(most, uint32_t{row.count});
     if (row.count == 0) continue;
     int64_t spread = 0;
     for (uint32_t i = 0; i < row.count; ++i) {
@@ -50,14 +38,24 @@ void observe_batch(const PredictionGraph& graph, const GridPoints& points,
     inverse_noise[lane] =
         1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
   }
-  kernels.observe_points(batch, y, inverse_noise);
+  kernels.observe_points(y, inverse_noise, most, out);
 }
 
 /// All rows together are far larger than what the processor keeps at hand.
-void prefetch(const RowEquations& row) {
+template <class Row>
+void prefetch(const Row& row) {
   constexpr size_t kCacheLine = 64;
   const auto* bytes = reinterpret_cast<const char*>(&row);
   for (size_t at = 0; at < sizeof row; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
+}
+
+std::vector<uint32_t> rows_by_count(const PredictionGraph& graph) {
+  std::vector<uint32_t> rows(graph.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  std::stable_sort(rows.begin(), rows.end(), [&](uint32_t a, uint32_t b) {
+    return graph.rows[a].count < graph.rows[b].count;
+  });
+  return rows;
 }
 
 }  // namespace
@@ -68,31 +66,21 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
       options_(options),
       threads_(threads),
       targets_(options.sum_to_one ? 0 : graph.size()),
-      values_(size_t{graph.size()} * kObservations),
       folded_(graph.size(), 0),
       misses_(graph.size(), kNeverSolved),
+      by_count_(rows_by_count(graph)),
       weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {}
 
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
   equations_.resize(graph_.size());
-  float dropped[kMaxNeighbours];
+  std::vector<uint32_t> rows(graph_.size());
+  std::iota(rows.begin(), rows.end(), 0u);
   for (uint32_t first = 0; first < graph_.size(); first += kLanes) {
-    WeightBatch batch{};
-    uint32_t rows[kLanes];
-    float* out[kLanes];
-    RowEquations* equations[kLanes];
-    for (uint32_t l = 0; l < kLanes; ++l) {
-      // Lanes past the end repeat the last row.
-      rows[l] = std::min(first + l, graph_.size() - 1);
-      out[l] = first + l == rows[l] ? &weights_[size_t{rows[l]} * kMaxNeighbours] : dropped;
-      equations[l] = &equations_[rows[l]];
-      *equations[l] = {};
-    }
-    init_batch(batch, rows, graph_, options_);
-    observe_batch(graph_, points, order, rows, kernels_, batch);
-    kernels_.solve(batch, options_.sum_to_one, out);
-    kernels_.store_equations(batch, equations);
+    uint32_t eight[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
+    observe_rows(graph_, points, order, eight, kernels_, equations_);
+    solve_eight(rows, first, {});  // while they are at hand
   }
   std::fill(misses_.begin(), misses_.end(), uint8_t{0});
 }
@@ -102,36 +90,42 @@ void WeightEstimator::make_equations() {
   if (equations_.empty()) equations_.resize(graph_.size(), RowEquations{});
 }
 
-// As late as can be: after the last component that anything is solved for, rows need not learn.
-void WeightEstimator::begin_component() {
+WeightEstimator::List WeightEstimator::list(const Planes& planes) const {
+  List out{};
+  for (uint32_t o = 0; o < observations_; ++o)
+    out[o] = planes[planes.size() - observations_ + o].data();
+  return out;
+}
+
+void WeightEstimator::begin_component(const Planes& planes) {
   make_equations();
-  if (observations_ < kObservations) return;
+  if (observations_ == kObservations) end_list(planes);
+}
+
+// As late as can be: after the last component that anything is solved for, rows need not learn.
+void WeightEstimator::end_list(const Planes& planes) {
+  const List observed = list(planes);
   parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {
     for (uint32_t r = begin; r < end; ++r) {
-      if (r + 1 < end) prefetch(equations_[r + 1]);
-      fold(r);
+      if (misses_[r] > 0) fold(r, observed);
     }
   });
   std::fill(folded_.begin(), folded_.end(), uint8_t{0});
   observations_ = 0;
 }
 
-void WeightEstimator::finish_component(double noise) {
-  scale_[observations_++] = 1.0 / std::sqrt(noise);
-}
-
-void WeightEstimator::fold(uint32_t r) {
+void WeightEstimator::fold(uint32_t r, const List& list) {
   const PredictionGraph::Row& row = graph_.rows[r];
   if (folded_[r] == observations_) return;
   kernels_.fold(
       equations_[r], options_.sum_to_one ? nullptr : targets_[r].data(),
-      {values_.data(), scale_, row.neighbour.data(), row.count, r, folded_[r], observations_});
+      {list.data(), scale_, row.neighbour.data(), row.count, r, folded_[r], observations_});
   folded_[r] = static_cast<uint8_t>(observations_);
 }
 
-void WeightEstimator::fade(double factor) {
+void WeightEstimator::fade(double factor, const Planes& planes) {
+  end_list(planes);
   for (uint32_t r = 0; r < graph_.size(); ++r) {
-    fold(r);
     for (Lanes& entries : equations_[r].strip) entries *= factor;
     if (options_.sum_to_one) continue;
     for (double& entry : targets_[r]) entry *= factor;
@@ -139,43 +133,49 @@ void WeightEstimator::fade(double factor) {
   std::fill(misses_.begin(), misses_.end(), kNeverSolved);
 }
 
-void WeightEstimator::solve(uint32_t misses) {
+void WeightEstimator::solve(uint32_t misses, const Planes& planes) {
   make_equations();
+  const List observed = list(planes);
+  const std::vector<uint32_t> rows = take_missed(misses);
+  const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
+  parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
+      solve_eight(rows, first, observed);
+  });
+}
+
+std::vector<uint32_t> WeightEstimator::take_missed(uint32_t misses) {
   std::vector<uint32_t> rows;
-  for (uint32_t r = 0; r < graph_.size(); ++r) {
+  for (const uint32_t r : by_count_) {
     if (misses_[r] < misses) continue;
     rows.push_back(r);
     misses_[r] = 0;
   }
-  const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
-  parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
-      solve_eight(rows, first);
-  });
+  return rows;
 }
 
-void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t first) {
+void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t first,
+                                  const List& list) {
   const uint32_t count = std::min(kLanes, static_cast<uint32_t>(rows.size()) - first);
   float dropped[kMaxNeighbours];
-  const RowEquations* equations[kLanes];
   uint32_t row[kLanes];
   float* out[kLanes];
   for (uint32_t l = 0; l < kLanes; ++l) {
     // Lanes past the end repeat the last row; their results are dropped.
     row[l] = rows[first + std::min(l, count - 1)];
-    if (first + l + 1 < rows.size()) prefetch(equations_[rows[first + l + 1]]);
-    if (l < count) fold(row[l]);
-    equations[l] = &equations_[row[l]];
+    if (first + l + 1 < rows.size()) {
+      prefetch(graph_.rows[rows[first + l + 1]]);
+      prefetch(equations_[rows[first + l + 1]]);
+    }
+    if (l < count) fold(row[l], list);
     out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;
   }
-  WeightBatch batch;
-  init_batch(batch, row, graph_, options_);
-  kernels_.load_equations(batch, equations);
-  for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
-    for (uint32_t l = 0; l < kLanes; ++l)
-      batch.target[i][l] = options_.sum_to_one ? 0 : targets_[row[l]][i];
-  }
-  kernels_.solve(batch, options_.sum_to_one, out);
+  const double ring = options_.ring_deviation;
+  const double extra = options_.extra_deviation;
+  kernels_.solve(
+      {graph_.rows.data(), equations_.data(), options_.sum_to_one ? nullptr : targets_.data(),
+       1 / (ring * ring), 1 / (extra * extra)},
+      row, out);
 }
 
 }  // namespace reeb

@@ -3,6 +3,8 @@
 // predictions failed.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -38,36 +40,45 @@ class WeightEstimator {
   /// observed yet.
   void observe_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
-  /// Starts a component to learn from.
-  void begin_component();
+  /// Decoded components, a value for each row; the last ones are those that are being learned from.
+  using Planes = std::vector<std::vector<float>>;
 
-  /// The row's value in the component being decoded, and whether it was predicted `exactly`, which
-  /// is no miss.
-  void note(uint32_t row, float value, bool exactly) {
-    values_[size_t{row} * kObservations + observations_] = value;
-    if (!exactly && misses_[row] < kNeverSolved) ++misses_[row];
+  /// Starts a component to learn from. `planes`: without it.
+  void begin_component(const Planes& planes);
+
+  /// The row's value in the component being decoded is not what its weights predicted.
+  void miss(uint32_t row) {
+    if (misses_[row] < kNeverSolved) ++misses_[row];
   }
 
-  /// Learns from the component, all of whose rows are noted and whose residuals had the given
-  /// variance.
-  void finish_component(double noise);
+  /// Learns from the component, whose residuals had the given variance.
+  void finish_component(double noise) { scale_[observations_++] = 1.0 / std::sqrt(noise); }
 
   /// Lets all that is observed count `factor` times as much; all rows count as never solved
-  /// for.
-  void fade(double factor);
+  /// for. The next component to learn from begins new planes.
+  void fade(double factor, const Planes& planes);
 
   /// Brings the weights of rows up to date that have had as many misses since they were last solved
   /// for, up to 254, or that never were.
-  void solve(uint32_t misses);
+  void solve(uint32_t misses, const Planes& planes);
 
   /// kMaxNeighbours weights of a row; 0 for padding.
   const float* weights(uint32_t row) const { return &weights_[size_t{row} * kMaxNeighbours]; }
 
  private:
+  /// The planes that a list of observations stands for.
+  using List = std::array<const float*, kObservations>;
+
+  List list(const Planes& planes) const;
   void make_equations();
-  void fold(uint32_t row);
+  /// Starts a new list of observations: rows that missed learn from the old one, the others agree
+  /// with it.
+  void end_list(const Planes& planes);
+  void fold(uint32_t row, const List& list);
+  /// Rows of so many misses or more, which are 0 then.
+  std::vector<uint32_t> take_missed(uint32_t misses);
   /// For rows[first] and the seven after it.
-  void solve_eight(const std::vector<uint32_t>& rows, uint32_t first);
+  void solve_eight(const std::vector<uint32_t>& rows, uint32_t first, const List& list);
 
   static constexpr uint8_t kNeverSolved = 255;
 
@@ -77,11 +88,11 @@ class WeightEstimator {
   Kernels kernels_ = fastest_kernels();
   BatchVector<RowEquations> equations_;  ///< none before something is learned
   std::vector<RowTarget> targets_;       ///< none where weights sum to one
-  std::vector<float> values_;            ///< [row][observation]: the last ones
-  double scale_[kObservations] = {};     ///< 1 / sqrt(noise) of each
-  uint32_t observations_ = 0;            ///< that are in `values_`
+  double scale_[kObservations] = {};     ///< 1 / sqrt(noise) of the observations of the list
+  uint32_t observations_ = 0;            ///< on the list
   std::vector<uint8_t> folded_;          ///< of these, those in the row's equations
   std::vector<uint8_t> misses_;          ///< since the row was solved for
+  std::vector<uint32_t> by_count_;  ///< rows: those solved for together have as many neighbours
   std::vector<float> weights_;
 };
 

@@ -49,7 +49,7 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
 
 // The estimator and its weights, what contexts look back on, and the contexts themselves.
 uint64_t state_memory(uint64_t vertices) {
-  constexpr uint64_t kBytesPerStateRow = sizeof(RowEquations) + 256;
+  constexpr uint64_t kBytesPerStateRow = sizeof(RowEquations) + 192;
   return vertices * kBytesPerStateRow + sizeof(MagnitudeModel) + sizeof(Field);
 }
 

@@ -13,8 +13,12 @@ namespace {
 double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
   const uint32_t b = MagnitudeBuckets::of(magnitude);
   double bits = MagnitudeBuckets::extra_bits(b) + (magnitude > 0 ? 1 : 0);
-  for (uint32_t i = 0; i < b; ++i) bits += cost_of(bins.p1(i));
-  return bits + cost_of(static_cast<Probability>(65536 - bins.p1(b)));
+  bins.find([&](uint32_t node, uint32_t than) {
+    const Probability p1 = bins.p1(node);
+    bits += cost_of(b > than ? p1 : static_cast<Probability>(65536 - p1));
+    return b > than;
+  });
+  return bits;
 }
 
 }  // namespace

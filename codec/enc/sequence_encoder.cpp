@@ -19,6 +19,9 @@ constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
 constexpr double kTolerance = 0.0095;
+// What an error measured in coefficients may fall short of the one of rounded positions; where that
+// does not do, a second search measures positions.
+constexpr double kRounding = 1.0005;
 constexpr double kPolishStride = 0.003;  ///< in ln q, between steps tried beside the last one
 constexpr int kHalvings = 7;             ///< of an octave of steps, to find the first one
 constexpr double kSlopeStride = 1.2;     ///< ratio of steps between which a slope is taken
@@ -69,7 +72,7 @@ double SequenceEncoder::excess_of(const Attempt& a) const {
   double measured = 0;
   switch (options_.target) {
     case Target::kKg:
-      measured = kg_of(exact_ ? measure(a).squared : a.squared_error);
+      measured = exact_ ? kg_of(measure(a).squared) : kg_of(a.squared_error) * kRounding;
       break;
     case Target::kMaxError:
       return 0;  // whatever the step

@@ -141,9 +141,7 @@ class LaneWeights:
             A[i][i] = sum32(A[i][i], sure)
             w.append(product32(self.row.prior[i], sure))
         b = [1.0] * self.n
-        inverse = factorise32(A)
-        substitute32(A, inverse, w)
-        substitute32(A, inverse, b)
+        solve_system32(A, [w, b])
         constrain32(w, b)
         return w
 
@@ -155,36 +153,29 @@ def dot32(a, b):
     return out
 
 
-def factorise32(A):
+def solve_system32(A, sides):
     n = len(A)
-    diagonal, inverse, c = [0.0] * n, [0.0] * n, [0.0] * n
+    rows = A + sides
+    diagonal, c = [0.0] * n, [0.0] * n
     for j in range(n):
         d = A[j][j]
         least = product32(d, 2.0 ** -20)
         for k in range(j):
             c[k] = product32(A[j][k], diagonal[k])
             d = sum32(d, -product32(A[j][k], c[k]))
+        inverse = 0.0
         if d > least:
             diagonal[j] = d
-            inverse[j] = f32(1 / d)
-        for i in range(j + 1, n):
-            x = A[i][j]
+            inverse = f32(1 / d)
+        for row in rows[j + 1:]:
+            x = row[j]
             for k in range(j):
-                x = sum32(x, -product32(A[i][k], c[k]))
-            A[i][j] = product32(x, inverse[j])
-    return inverse
-
-
-def substitute32(A, inverse, x):
-    n = len(x)
-    for i in range(1, n):
-        for k in range(i):
-            x[i] = sum32(x[i], -product32(A[i][k], x[k]))
-    for i in range(n):
-        x[i] = product32(x[i], inverse[i])
-    for i in range(n - 1, -1, -1):
-        for k in range(i + 1, n):
-            x[i] = sum32(x[i], -product32(A[k][i], x[k]))
+                x = sum32(x, -product32(row[k], c[k]))
+            row[j] = product32(x, inverse)
+    for x in sides:
+        for k in range(n - 1, 0, -1):
+            for i in range(k):
+                x[i] = sum32(x[i], -product32(A[k][i], x[k]))
 
 
 def constrain32(w, b):

@@ -28,6 +28,8 @@ BASIS = FieldOptions(BASIS_WEIGHTS, True, True, 0.5, 0.05)
 
 TABLE_CONTEXTS = (144, 24, 96, 144)
 BINS = 24
+NODES = 48
+WIDE = 10
 
 
 def classify(x, c, s):
@@ -71,6 +73,7 @@ class Contexts:
             classify(relative(s.extra_mean), 12, 6) * 12 + classify((ring + recent) // 2, 12, 6),
         )
         self.escape_class = classify(expected, 8, 3)
+        self.wide = self.tables[1] >= WIDE
 
 
 class ResidualDecoder:
@@ -81,7 +84,7 @@ class ResidualDecoder:
         if before is not None:
             self.mixer, self.calm, self.escape = before.mixer, before.calm, before.escape
             return
-        self.mixer = Mixer([BINS * contexts for contexts in TABLE_CONTEXTS], BINS, 40, ShortBit)
+        self.mixer = Mixer([NODES * contexts for contexts in TABLE_CONTEXTS], NODES, 40, ShortBit)
         self.calm = adaptive_bits(4)
         self.escape = [adaptive_bits(55) for _ in range(8)]
 
@@ -93,8 +96,11 @@ class ResidualDecoder:
                 return 0
             b = 1
         contexts = Contexts(surroundings)
-        while b < BINS and self.mixer.decode(self.decoder, [context * BINS + b for context in contexts.tables], b):
-            b += 1
+        if contexts.wide:
+            b = self.decode_wide(contexts)
+        else:
+            while b < BINS and self.decode_node(contexts, b):
+                b += 1
         if b == 0:
             return 0
         extra = 0 if b < 8 else (b - 8) // 4 + 1
@@ -104,6 +110,18 @@ class ResidualDecoder:
         else:
             size = begin + self.decode_escape(contexts.escape_class)
         return -size if self.decoder.decode(EVEN) else size
+
+    def decode_node(self, contexts, node):
+        return self.mixer.decode(self.decoder, [context * NODES + node for context in contexts.tables], node)
+
+    def decode_wide(self, contexts):
+        b = 0
+        while b < BINS and self.decode_node(contexts, BINS + b):
+            b += 4
+        if b == BINS:
+            return b
+        upper = self.decode_node(contexts, BINS + b + 1)
+        return b + 2 * upper + self.decode_node(contexts, BINS + b + 2 + upper)
 
     def decode_escape(self, c):
         length = 0
@@ -129,7 +147,7 @@ class Field:
         if before is not None and options.adapt and positions is not None:
             self.weights = before.weights
             for weights in self.weights:
-                weights.forget()
+                weights.fade()
                 weights.solve()
         elif options.predict:
             self.weights = [RowWeights(rows, r, options.weights) for r in range(len(rows))]
@@ -202,9 +220,11 @@ class Field:
             return
         noise = self.options.noise_share * (energy / (len(rows) - len(rows) // 4)) + self.options.noise_floor
         for weights, magnitude in zip(self.weights, self.last):
-            weights.observe(self.planes[-1], noise, magnitude != 0)
+            weights.note(self.planes[-1], noise, magnitude != 0)
             if weights.misses >= misses_to_solve(k):
                 weights.solve()
+            if k % 16 == 15:
+                weights.end_list()
 
 
 def decode_field(data, rows, components, options, positions=None, before=None):

@@ -8,7 +8,7 @@ from .container import QUICK
 from .entropy import AdaptiveBit, ExpGolomb, Mixer, RangeDecoder, adaptive_bits
 from .errors import require
 from .raw_bits import RawBits
-from .weights import factorise, substitute
+from .weights import solve_system
 
 FURTHEST = f32(1e37)
 TABLES = (2048, 2048, 192, 256, 2048, 256)
@@ -187,7 +187,7 @@ class RowState:
         for i in range(self.n):
             A[i][i] = A[i][i] + ridge
             w.append(self.g[i] + ridge * self.prior[i])
-        substitute(A, factorise(A), w)
+        solve_system(A, [w])
         self.w = [f32(x) if -64 < x < 64 else 0.0 for x in w]
 
     def jump(self, position):

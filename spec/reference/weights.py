@@ -34,9 +34,10 @@ class RowWeights:
         self.precision = []
         for i in range(n):
             deviation = options.ring_deviation if i < self.row.ring else options.extra_deviation
-            self.precision.append(self.row.precision[i] / (deviation * deviation))
+            self.precision.append(self.row.precision[i] * (1 / (deviation * deviation)))
         self.w = []
         self.misses = 0
+        self.list = []
 
     def observe_reference(self, positions):
         """positions: grid position of every row."""
@@ -51,8 +52,22 @@ class RowWeights:
                 product = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2]
                 self.M[i][j] = self.M[i][j] + product * inverse_noise
 
-    def observe(self, plane, noise, missed):
+    def note(self, plane, noise, missed):
         """missed: whether the row had a residual."""
+        self.list.append((plane, noise))
+        self.misses += missed
+
+    def observe_list(self):
+        for plane, noise in self.list:
+            self.observe(plane, noise)
+        self.list = []
+
+    def end_list(self):
+        if self.misses > 0:
+            self.observe_list()
+        self.list = []
+
+    def observe(self, plane, noise):
         scale = 1 / math.sqrt(noise)
         t = plane[self.index]
         to_one = self.options.sum_to_one
@@ -63,34 +78,43 @@ class RowWeights:
                 M[j] = M[j] + y[i] * y[j]
             if not to_one:
                 self.T[i] = self.T[i] + y[i] * (t * scale)
-        self.misses += missed
 
-    def forget(self):
+    def fade(self):
         """fields.md section 6."""
+        self.end_list()
         self.M = [[x * 0.5 for x in row] for row in self.M]
 
     def solve(self):
+        self.observe_list()
         n = self.n
         A = [list(row) for row in self.M]
         w = []
         for i in range(n):
             A[i][i] = A[i][i] + self.precision[i]
             w.append(self.row.prior[i] * self.precision[i] + self.T[i])
-        inverse = factorise(A)
-        substitute(A, inverse, w)
         if self.options.sum_to_one:
             b = [1.0] * n
-            substitute(A, inverse, b)
+            solve_system(A, [w, b])
             constrain(w, b)
+        else:
+            solve_system(A, [w])
         self.w = [f32(x) for x in w]
         self.misses = 0
 
 
-def factorise(A):
-    """A = L D L^T; returns the inverses of D."""
+def solve_system(A, sides):
+    """A x = b for every right side b, which x takes the place of; changes A."""
+    factorise(A, sides)
+    for x in sides:
+        for k in range(len(A) - 1, 0, -1):
+            for i in range(k):
+                x[i] = x[i] - A[k][i] * x[k]
+
+
+def factorise(A, sides):
     n = len(A)
+    rows = A + sides
     diagonal = [0.0] * n
-    inverse = [0.0] * n
     c = [0.0] * n
     for j in range(n):
         d = A[j][j]
@@ -98,27 +122,15 @@ def factorise(A):
         for k in range(j):
             c[k] = A[j][k] * diagonal[k]
             d = d - A[j][k] * c[k]
+        inverse = 0.0
         if d > least:
             diagonal[j] = d
-            inverse[j] = 1 / d
-        for i in range(j + 1, n):
-            x = A[i][j]
+            inverse = 1 / d
+        for row in rows[j + 1:]:
+            x = row[j]
             for k in range(j):
-                x = x - A[i][k] * c[k]
-            A[i][j] = x * inverse[j]
-    return inverse
-
-
-def substitute(A, inverse, x):
-    n = len(x)
-    for i in range(1, n):
-        for k in range(i):
-            x[i] = x[i] - A[i][k] * x[k]
-    for i in range(n):
-        x[i] = x[i] * inverse[i]
-    for i in range(n - 1, -1, -1):
-        for k in range(i + 1, n):
-            x[i] = x[i] - A[k][i] * x[k]
+                x = x - row[k] * c[k]
+            row[j] = x * inverse
 
 
 def constrain(w, b):

@@ -69,23 +69,39 @@ Eigen::VectorXd best_weights(const Fixture& f, uint32_t r, const WeightOptions& 
   return a.fullPivLu().solve(b).head(n);
 }
 
-void observe(WeightEstimator& estimator, const std::vector<float>& plane, bool exactly,
-             double noise) {
-  estimator.begin_component();
-  for (uint32_t r = 0; r < plane.size(); ++r) estimator.note(r, plane[r], exactly);
-  estimator.finish_component(noise);
-}
+/// An estimator and what it has been shown.
+struct Learner {
+  WeightEstimator estimator;
+  WeightEstimator::Planes planes;
+
+  Learner(const Fixture& f, const WeightOptions& options = {}, unsigned threads = 1)
+      : estimator(f.surface.graph, options, threads) {}
+
+  /// `misses(r)` tells whether row r does.
+  template <class Misses>
+  void observe(const std::vector<float>& plane, double noise, Misses misses) {
+    estimator.begin_component(planes);
+    planes.push_back(plane);
+    for (uint32_t r = 0; r < plane.size(); ++r) {
+      if (misses(r)) estimator.miss(r);
+    }
+    estimator.finish_component(noise);
+  }
+  void solve(uint32_t misses = 1) { estimator.solve(misses, planes); }
+};
+
+bool all_rows(uint32_t) { return true; }
 
 std::vector<float> estimate(const Fixture& f, const WeightOptions& options, unsigned threads,
                             bool reference = false) {
-  WeightEstimator estimator(f.surface.graph, options, threads);
-  if (reference) estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
+  Learner learner(f, options, threads);
+  if (reference) learner.estimator.observe_reference(GridPoints(f.xyz), f.surface.order);
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    observe(estimator, f.planes[o], false, f.noise[o]);
-    if (o % 2 == 1) estimator.solve(1);  // observations add up over several solves
+    learner.observe(f.planes[o], f.noise[o], all_rows);
+    if (o % 2 == 1) learner.solve();  // observations add up over several solves
   }
-  estimator.solve(1);
-  const float* first = estimator.weights(0);
+  learner.solve();
+  const float* first = learner.estimator.weights(0);
   return {first, first + size_t{f.surface.graph.size()} * kMaxNeighbours};
 }
 
@@ -96,36 +112,28 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 /// Eight rows at work, from row 40 of the fixture on.
 std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool sum_to_one) {
   const auto observations = static_cast<uint32_t>(f.planes.size());
-  std::vector<float> values(f.planes[0].size() * kObservations);
+  std::vector<const float*> planes;
   std::vector<double> scale;
   for (uint32_t o = 0; o < observations; ++o) {
-    for (size_t r = 0; r < f.planes[o].size(); ++r) values[r * kObservations + o] = f.planes[o][r];
+    planes.push_back(f.planes[o].data());
     scale.push_back(1 / std::sqrt(f.noise[o]));
   }
-  std::vector<float> out(kLanes * kMaxNeighbours, 0.0f);
-  auto batch = std::make_unique<WeightBatch>();
-  std::vector<RowEquations> equations(kLanes);
-  const RowEquations* rows[kLanes];
+  std::vector<float> out(kLanes * kMaxNeighbours, 1.0f);
+  std::vector<RowEquations> equations(f.surface.graph.size());
+  std::vector<RowTarget> targets(f.surface.graph.size());
+  uint32_t rows[kLanes];
   float* lanes[kLanes];
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const uint32_t r = 40 + lane * 3;
+    const uint32_t r = rows[lane] = 40 + lane * 3;
     const PredictionGraph::Row& row = f.surface.graph.rows[r];
-    batch->count = std::max(batch->count, uint32_t{row.count});
-    for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
-      batch->prior[i][lane] = static_cast<double>(row.prior[i]);
-      batch->precision[i][lane] = 0.7 + 0.1 * i;
-      batch->in_use[i][lane] = i < row.count ? 1 : 0;
-    }
-    RowTarget target{};
     kernels.fold(
-        equations[lane], sum_to_one ? nullptr : target.data(),
-        {values.data(), scale.data(), row.neighbour.data(), row.count, r, 1, observations});
-    for (uint32_t i = 0; i < kMaxNeighbours; ++i) batch->target[i][lane] = target[i];
-    rows[lane] = &equations[lane];
+        equations[r], sum_to_one ? nullptr : targets[r].data(),
+        {planes.data(), scale.data(), row.neighbour.data(), row.count, r, 1, observations});
     lanes[lane] = &out[lane * kMaxNeighbours];
   }
-  kernels.load_equations(*batch, rows);
-  kernels.solve(*batch, sum_to_one, lanes);
+  kernels.solve({f.surface.graph.rows.data(), equations.data(),
+                 sum_to_one ? nullptr : targets.data(), 0.7, 1.3},
+                rows, lanes);
   return out;
 }
 
@@ -217,76 +225,97 @@ TEST_CASE("values of any size leave finite weights", "[weights]") {
   }
 }
 
-TEST_CASE("weights of rows predicted without error need not be solved for", "[weights]") {
+TEST_CASE("what rows predict without error they need not learn", "[weights]") {
   const Fixture f(torus(16, 11), 40);
-  WeightEstimator lazy(f.surface.graph, {}, 1);
-  WeightEstimator eager(f.surface.graph, {}, 1);
+  Learner lazy(f);
+  Learner eager(f);
   std::mt19937 random(9);
   const uint32_t rows = f.surface.graph.size();
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    lazy.solve(1);
-    eager.solve(1);
+    lazy.solve();
+    eager.solve();
     std::vector<float> plane(rows);
-    lazy.begin_component();
+    std::vector<bool> missed(rows);
     for (uint32_t r = 0; r < rows; ++r) {
       const PredictionGraph::Row& row = f.surface.graph.rows[r];
       for (uint32_t i = 0; i < row.count; ++i)
-        plane[r] += lazy.weights(r)[i] * plane[row.neighbour[i]];
-      const bool exactly = r >= 20 && random() % 8 != 0;
-      if (!exactly) plane[r] += std::round(f.planes[o][r]);
-      lazy.note(r, plane[r], exactly);
+        plane[r] += lazy.estimator.weights(r)[i] * plane[row.neighbour[i]];
+      missed[r] = r < 20 || random() % 8 == 0;
+      if (missed[r]) plane[r] += std::round(f.planes[o][r]);
     }
-    lazy.finish_component(f.noise[o]);
-    observe(eager, plane, false, f.noise[o]);
+    lazy.observe(plane, f.noise[o], [&](uint32_t r) { return missed[r]; });
+    eager.observe(plane, f.noise[o], all_rows);
+    if (o >= kObservations) continue;  // until then nothing is forgotten
     for (size_t i = 0; i < size_t{rows} * kMaxNeighbours; ++i)
-      REQUIRE(lazy.weights(0)[i] == Approx(eager.weights(0)[i]).margin(1e-4));
+      REQUIRE(lazy.estimator.weights(0)[i] == Approx(eager.estimator.weights(0)[i]).margin(1e-4));
+  }
+}
+
+TEST_CASE("rows learn from the lists in which they missed", "[weights]") {
+  Fixture f(torus(16, 11), 2 * kObservations);
+  Learner learner(f);
+  const auto misses = [](uint32_t r, size_t o) {  // even rows in the first list, all in the second
+    return o == 3 ? r % 2 == 0 : o == kObservations + 5;
+  };
+  learner.solve();
+  for (size_t o = 0; o < f.planes.size(); ++o)
+    learner.observe(f.planes[o], f.noise[o], [&](uint32_t r) { return misses(r, o); });
+  learner.solve();
+  Fixture late = f;
+  late.planes.erase(late.planes.begin(), late.planes.begin() + kObservations);
+  late.noise.erase(late.noise.begin(), late.noise.begin() + kObservations);
+  for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
+    const Eigen::VectorXd expected = best_weights(r % 2 == 0 ? f : late, r, {});
+    for (uint32_t i = 0; i < f.surface.graph.rows[r].count; ++i)
+      REQUIRE(static_cast<double>(learner.estimator.weights(r)[i]) ==
+              Approx(expected[i]).margin(2e-6));
   }
 }
 
 TEST_CASE("faded observations count less", "[weights]") {
   Fixture f(torus(16, 11));
-  WeightEstimator faded(f.surface.graph, {}, 1);
+  Learner faded(f);
   for (size_t o = 0; o < f.planes.size(); ++o) {
-    observe(faded, f.planes[o], true, f.noise[o]);
+    faded.observe(f.planes[o], f.noise[o], all_rows);
     f.noise[o] *= 4;
   }
-  faded.fade(0.25);
-  faded.solve(1);
+  faded.estimator.fade(0.25, faded.planes);
+  faded.planes.clear();
+  faded.solve();
   for (uint32_t r = 0; r < f.surface.graph.size(); ++r) {
     const Eigen::VectorXd expected = best_weights(f, r, {});
     for (uint32_t i = 0; i < f.surface.graph.rows[r].count; ++i)
-      REQUIRE(static_cast<double>(faded.weights(r)[i]) == Approx(expected[i]).margin(2e-6));
+      REQUIRE(static_cast<double>(faded.estimator.weights(r)[i]) ==
+              Approx(expected[i]).margin(2e-6));
   }
 }
 
 TEST_CASE("rows are solved for when they have missed often enough", "[weights]") {
   const Fixture f(torus(16, 11), 6);
-  WeightEstimator estimator(f.surface.graph, {}, 1);
+  Learner learner(f);
   const uint32_t rows = f.surface.graph.size();
   const auto observe_with_misses = [&](size_t o) {  // row r misses in the first r mod 4 components
-    estimator.begin_component();
-    for (uint32_t r = 0; r < rows; ++r) estimator.note(r, f.planes[o][r], o >= r % 4);
-    estimator.finish_component(f.noise[o]);
+    learner.observe(f.planes[o], f.noise[o], [o](uint32_t r) { return o < r % 4; });
   };
-  estimator.solve(200);  // rows never solved for are, whatever the number
-  const std::vector<float> first(estimator.weights(0),
-                                 estimator.weights(0) + size_t{rows} * kMaxNeighbours);
+  learner.solve(200);  // rows never solved for are, whatever the number
+  const float* const now = learner.estimator.weights(0);
+  const std::vector<float> first(now, now + size_t{rows} * kMaxNeighbours);
   const auto count_changed = [&] {
     std::array<uint32_t, 4> changed{};
     for (uint32_t r = rows / 2; r < rows; ++r) {
-      changed[r % 4] += !std::equal(estimator.weights(r), estimator.weights(r) + kMaxNeighbours,
-                                    &first[size_t{r} * kMaxNeighbours]);
+      const float* w = learner.estimator.weights(r);
+      changed[r % 4] += !std::equal(w, w + kMaxNeighbours, &first[size_t{r} * kMaxNeighbours]);
     }
     return changed;
   };
   for (size_t o = 0; o < 3; ++o) observe_with_misses(o);
-  estimator.solve(4);
+  learner.solve(4);
   CHECK(count_changed() == std::array<uint32_t, 4>{});
-  estimator.solve(2);
+  learner.solve(2);
   const uint32_t quarter = rows / 8;  // of the later half
   CHECK(count_changed() == std::array<uint32_t, 4>{0, 0, quarter, quarter});
   observe_with_misses(0);
-  estimator.solve(2);  // rows 1, 5, ... have two by now; the others had begun anew
+  learner.solve(2);  // rows 1, 5, ... have two by now; the others had begun anew
   CHECK(count_changed() == std::array<uint32_t, 4>{0, quarter, quarter, quarter});
 }
 
