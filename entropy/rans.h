@@ -30,6 +30,10 @@ constexpr uint32_t rans_symbol(int32_t n) {
   const auto magnitude = static_cast<uint32_t>(n < 0 ? -n : n);
   return 2 * RansBuckets::of(magnitude) - (n < 0 ? 1 : 0);
 }
+/// The integer of a symbol that has no raw bits.
+constexpr int32_t rans_integer(uint32_t symbol) {
+  return static_cast<int32_t>(symbol >> 1) ^ -static_cast<int32_t>(symbol & 1);
+}
 constexpr uint32_t rans_symbol_bucket(uint32_t symbol) { return (symbol + 1) / 2; }
 inline constexpr uint32_t kRansLastSingle =
     2 * (RansBuckets::kSingles - 1);  ///< symbols beyond have raw bits

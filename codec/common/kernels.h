@@ -111,8 +111,11 @@ struct LaneWeightTask {
   const PredictionGraph::Row* rows = nullptr;
   const float* points = nullptr;        ///< [row][kPointStride]: x, y, z of the reference
   const float* values = nullptr;        ///< of the last block; null where there is none
-  const float* first_values = nullptr;  ///< of the first one; null where that is the last
+  const float* first_values = nullptr;  ///< of the first one, kFirstLanes a row; null where that is
+                                        ///< the last
 };
+/// Of the first block.
+inline constexpr uint32_t kFirstLanes = kRansLanes / 2;
 inline constexpr uint32_t kPointStride = 4;
 inline constexpr uint32_t kWeightRows = 16;
 

@@ -53,8 +53,12 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
   ++blocks_;
   std::array<float*, kRansLanes> plane;
   for (uint32_t l = 0; l < lanes; ++l) plane[l] = planes.emplace_back(rows()).data();
-  for (uint32_t r = 0; r < rows(); ++r) {
-    for (uint32_t l = 0; l < lanes; ++l) plane[l][r] = values_[size_t{r} * kRansLanes + l];
+  constexpr uint32_t kAtOnce = 16;  // rows: few enough to stay at hand
+  for (uint32_t first = 0; first < rows(); first += kAtOnce) {
+    const uint32_t end = std::min(first + kAtOnce, rows());
+    for (uint32_t l = 0; l < lanes; ++l) {
+      for (uint32_t r = first; r < end; ++r) plane[l][r] = values_[size_t{r} * kRansLanes + l];
+    }
   }
 }
 
@@ -73,7 +77,15 @@ void LaneField::learn() {
     task.first_values = first_values_.data();
   }
   learn_weights(task, badly, weights_);
-  if (blocks_ == 1) first_values_ = values_;
+  if (blocks_ == 1) keep_first_values();
+}
+
+void LaneField::keep_first_values() {
+  first_values_.reserve(size_t{rows()} * kFirstLanes);
+  for (size_t r = 0; r < rows(); ++r) {
+    const auto from = values_.begin() + static_cast<std::ptrdiff_t>(r * kRansLanes);
+    first_values_.insert(first_values_.end(), from, from + kFirstLanes);
+  }
 }
 
 bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, LaneField& field,

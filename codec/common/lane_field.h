@@ -20,7 +20,7 @@ namespace reeb {
 /// How many of `count` components the block has that starts with component k. The first block is
 /// small, since nothing is known of the rows before it.
 constexpr uint32_t lanes_of_block(uint32_t k, uint32_t count) {
-  return std::min(k == 0 ? kRansLanes / 2 : kRansLanes, count - k);
+  return std::min(k == 0 ? kFirstLanes : kRansLanes, count - k);
 }
 
 class LaneField {
@@ -58,6 +58,7 @@ class LaneField {
  private:
   /// Finds new weights for the rows that were predicted badly.
   void learn();
+  void keep_first_values();
 
   const PredictionGraph& graph_;
   const LaneStart* start_ = nullptr;  ///< where weights are learned
@@ -65,7 +66,7 @@ class LaneField {
   std::vector<float> steps_;
   std::vector<float> weights_;  ///< once any are learned
   std::vector<float> values_;
-  std::vector<float> first_values_;  ///< of the first block, once learned from
+  std::vector<float> first_values_;  ///< of the first block, once learned from; kFirstLanes a row
   std::vector<uint16_t> magnitudes_;
   std::vector<uint32_t> history_;
   uint32_t blocks_ = 0;  ///< that are complete

@@ -101,10 +101,10 @@ inline void learn_points(const LaneWeightTask& task, const LaneRows& rows, Lanes
 }
 
 /// From eight components.
-inline void learn_values(const LaneRows& rows, const float* values, LanesF* a) {
+inline void learn_values(const LaneRows& rows, const float* values, uint32_t stride, LanesF* a) {
   constexpr float kShare = 0.125f;  // of a squared difference of one quantization step
   LanesF y[kMaxNeighbours][8];
-  collect_differences(rows, values, kRansLanes, y);
+  collect_differences(rows, values, stride, y);
   for (uint32_t i = 0; i < rows.count; ++i) {
     for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] += kShare * dot<8>(y[i], y[j]);
   }
@@ -155,9 +155,9 @@ inline void learn_together(const LaneWeightTask& task, const uint32_t* indices, 
   const uint32_t n = rows.count;
   LanesF a[kSystem];
   learn_points(task, rows, a);
-  if (task.first_values != nullptr) learn_values(rows, task.first_values, a);
-  if (task.values != nullptr) learn_values(rows, task.values, a);
-  if (task.first_values != nullptr) learn_values(rows, task.values + 8, a);
+  if (task.first_values != nullptr) learn_values(rows, task.first_values, kFirstLanes, a);
+  if (task.values != nullptr) learn_values(rows, task.values, kRansLanes, a);
+  if (task.first_values != nullptr) learn_values(rows, task.values + 8, kRansLanes, a);
   expect(rows, a);
   solve_system<2>(n, a);
   constrain(n, a + packed(n, 0), a + packed(n + 1, 0));

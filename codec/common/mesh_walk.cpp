@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "codec/common/raw_vector.h"
+
 namespace reeb {
 namespace {
 
@@ -33,7 +35,7 @@ class CornerFans {
 
  private:
   std::vector<uint32_t> first_;
-  std::vector<Corner> corners_;
+  RawVector<Corner> corners_;
 };
 
 /// Points waiting for their turn, by the number of their triangles that are known but for them.

@@ -18,13 +18,15 @@ uint32_t FreeIndices::rank(uint32_t index) const {
   return sum;
 }
 
+// Which way to go is hard to foresee, so there is no branch on it.
 uint32_t FreeIndices::select(uint32_t rank) const {
   uint32_t at = 0;
   for (auto step = static_cast<uint32_t>(std::bit_floor(tree_.size() - 1)); step > 0; step /= 2) {
-    if (at + step < tree_.size() && tree_[at + step] <= rank) {
-      at += step;
-      rank -= tree_[at];
-    }
+    if (at + step >= tree_.size()) continue;
+    const uint32_t below = tree_[at + step];
+    const uint32_t passed = below <= rank ? UINT32_MAX : 0;
+    at += step & passed;
+    rank -= below & passed;
   }
   return at;
 }

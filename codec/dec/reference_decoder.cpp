@@ -10,7 +10,7 @@
 #include "codec/common/contraction.h"
 #include "codec/common/face_order.h"
 #include "codec/common/mesh_walk.h"
-#include "codec/common/plain_mesh.h"
+#include "codec/common/plain_order.h"
 #include "codec/common/plain_positions.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
@@ -68,21 +68,28 @@ Status decode_plain_positions(std::span<const uint8_t> bytes, const MeshWalk& wa
   return {};
 }
 
-Status decode_index_steps(std::span<const uint8_t> bytes, std::span<const uint32_t> triangles,
+Status decode_plain_order(std::span<const uint8_t> bytes, const MeshWalk& walk,
                           std::vector<uint32_t>& output_index) {
   RansDecoder decoder;
-  if (!decoder.open(bytes, 1) || !code_index_steps(decoder, triangles, output_index) ||
+  if (!decoder.open(bytes, 1) || !code_plain_order(decoder, walk, output_index) ||
       decoder.overrun())
     return Status::corrupt("mesh: the order is damaged");
-  std::vector<bool> taken(output_index.size());
-  for (const uint32_t v : output_index) {
-    if (taken[v]) return Status::corrupt("mesh: the order has an index twice");
-    taken[v] = true;
-  }
   return {};
 }
 
+/// Positions and order of a plain mesh.
+Status decode_plain(const MeshHeader& h, const Sections& sections,
+                    std::span<const uint32_t> triangles, std::vector<int32_t>& grid,
+                    std::vector<uint32_t>& output_index) {
+  const MeshWalk walk = walk_mesh(h.vertex_count, triangles);
+  if (Status s = decode_plain_positions(sections.positions, walk, grid); !s.ok()) return s;
+  if ((h.flags & MeshHeader::kOrderKept) == 0) return {};
+  output_index.assign(h.vertex_count, 0);
+  return decode_plain_order(sections.order, walk, output_index);
+}
+
 /// `topology`: of Draco's triangles and points, which mostly are all triangles and all vertices.
+/// Leaves the order of a plain mesh, which is there already.
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
                     std::span<const uint32_t> triangles, std::optional<TriangleTopology>& topology,
                     std::vector<uint32_t>& output_index) {
@@ -92,10 +99,7 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
     std::iota(output_index.begin(), output_index.end(), 0u);
     return {};
   }
-  if ((h.flags & MeshHeader::kPlain) != 0) {
-    output_index.assign(h.vertex_count, 0);
-    return decode_index_steps(bytes, triangles, output_index);
-  }
+  if ((h.flags & MeshHeader::kPlain) != 0) return {};
   const bool same = topology->point_count() == h.vertex_count &&
                     std::equal(triangles.begin(), triangles.end(), topology->triangles.begin(),
                                topology->triangles.end());
@@ -140,8 +144,8 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
   if (plain) {
-    const MeshWalk walk = walk_mesh(h.vertex_count, out.triangles);
-    if (Status s = decode_plain_positions(sections.positions, walk, state.grid); !s.ok()) return s;
+    Status s = decode_plain(h, sections, out.triangles, state.grid, out.output_index);
+    if (!s.ok()) return s;
     out.surface = contract_mesh(h.vertex_count, out.triangles);
     weigh_rows(GridPoints(state.grid), out.surface);
   }

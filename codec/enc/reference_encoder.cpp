@@ -12,7 +12,7 @@
 #include "codec/common/face_order.h"
 #include "codec/common/faces.h"
 #include "codec/common/mesh_walk.h"
-#include "codec/common/plain_mesh.h"
+#include "codec/common/plain_order.h"
 #include "codec/common/plain_positions.h"
 #include "codec/common/position_syntax.h"
 #include "codec/common/reference_syntax.h"
@@ -179,21 +179,21 @@ MeshState make_state(const Connectivity& input, std::span<const int32_t> grid,
   return s;
 }
 
-std::vector<uint8_t> write_plain_positions(const MeshState& state) {
+std::vector<uint8_t> write_plain_positions(const MeshState& state, const MeshWalk& walk) {
   RansEncoder coder(3);
   std::vector<int32_t> grid = state.grid;
-  code_plain_positions(coder, walk_mesh(state.vertex_count, collect_triangles(state)), grid);
+  code_plain_positions(coder, walk, grid);
   return coder.finish();
 }
 
-Status write_order(const MeshState& state, const std::vector<uint32_t>& coding, bool plain,
-                   std::vector<uint8_t>& bytes) {
+Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
+                   const MeshWalk* walk, std::vector<uint8_t>& bytes) {
   std::vector<uint32_t> output_index(coding.size());
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
-  if (plain) {
-    RansEncoder steps(1);
-    code_index_steps(steps, collect_triangles(state), output_index);
-    bytes = steps.finish();
+  if (walk != nullptr) {
+    RansEncoder coder(1);
+    code_plain_order(coder, *walk, output_index);
+    bytes = coder.finish();
     return {};
   }
   BinaryEncoder coder;
@@ -221,7 +221,11 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
                   MeshState& state, std::vector<uint8_t>& bytes) {
   BinaryEncoder coder;
   std::vector<uint8_t> positions;
-  if (options.plain) positions = write_plain_positions(state);
+  MeshWalk walk;
+  if (options.plain) {
+    walk = walk_mesh(state.vertex_count, collect_triangles(state));
+    positions = write_plain_positions(state, walk);
+  }
   constexpr uint64_t kAny = std::numeric_limits<uint64_t>::max();
   std::optional<TriangleTopology> topology;
   if (!options.plain) topology.emplace(state.point_count, state.triangles);
@@ -234,7 +238,8 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
   rest.resize(std::max<size_t>(rest.size(), elements / kElementsPerByte + 1));
   std::vector<uint8_t> order;
   if (!options.reorder) {
-    if (Status s = write_order(state, coding, options.plain, order); !s.ok()) return s;
+    if (Status s = write_order(state, coding, options.plain ? &walk : nullptr, order); !s.ok())
+      return s;
   }
   const bool keeps_faces = options.face_order && !options.reorder;
   std::vector<uint8_t> faces;

@@ -1,5 +1,6 @@
 """fast.md sections 2 to 5: the order of contraction, lane fields, their weights, plain meshes."""
 import math
+from bisect import bisect_left
 
 from .arithmetic import f32, floor_log2, product32, sum32
 from .connectivity import NONE, after, before, coding_order, edges_from
@@ -262,7 +263,7 @@ class Walk:
     def __init__(self, vertex_count, triangles):
         fans = edges_from(vertex_count, triangles)
         self.order = coding_order(vertex_count, triangles)
-        turn = {}
+        turn = self.turn = {}
         self.known = []
         for v in self.order:
             turn[v] = len(turn)
@@ -323,34 +324,72 @@ def rounded_mean(values):
     return int(sum32(sum32(p, 12582912.0), -12582912.0))
 
 
-def find_leaders(vertex_count, triangles):
-    leaders = [v - 1 for v in range(vertex_count)]
-    met = [False] * vertex_count
-    for i in range(0, len(triangles), 3):
-        for v in triangles[i:i + 3]:
-            for u in triangles[i:i + 3]:
-                if u < v and (not met[v] or u > leaders[v]):
-                    leaders[v] = u
-                    met[v] = True
-    return leaders
+class IndexGuesses:
+    """Section 5, *Order*: the guesses of one vertex, (kind, index)."""
+
+    def __init__(self, walk, turn, output, taken, cost):
+        self.cost = cost
+        self.all = []
+        known = walk.known[turn]
+        tips = [output[a] + output[b] - output[c] for a, b, c in known if c != NONE][:2]
+        guesses = list(enumerate(tips))
+        if turn > 0:
+            guesses.append((2, output[walk.order[turn - 1]] + 1))
+        latest = sorted({walk.turn[u] for a, b, _ in known for u in (a, b)}, reverse=True)[:4]
+        for i, t in enumerate(latest):
+            near = output[walk.order[t]]
+            guesses += [(4 + i, near + 1), (8 + i, near - 1)]
+        self.all = [(kind, g) for kind, g in guesses if 0 <= g < len(walk.order) and g not in taken]
+        self.best = min(cost[kind] for kind, _ in self.all) if self.all else None
+
+    def ordered(self):
+        """Every index once, the best first."""
+        found = []
+        for _, g in sorted(self.all, key=lambda guess: (self.cost[guess[0]], guess[0])):
+            if g not in found:
+                found.append(g)
+        return found
+
+    def note(self, index):
+        for kind, g in self.all:
+            x = min(abs(g - index), 1 << 20) + 1
+            e = floor_log2(x)
+            size = 16 * (32 * e + (32 * x >> e) - 32)
+            self.cost[kind] += (size - self.cost[kind]) >> 4
 
 
-def decode_plain_order(data, vertex_count, triangles):
+def decode_plain_order(data, walk):
     """Section 5: the output index of every coding vertex."""
-    leaders = find_leaders(vertex_count, triangles)
+    count = len(walk.order)
     section = LaneSection(data, 1)
-    output = []
-    met = set()
-    which = 0
-    for v in range(vertex_count):
-        n, symbol = section.decode(0, which)
-        index = (output[leaders[v]] + 1 if v > 0 else 0) + n
-        require(0 <= index < vertex_count and index not in met, "an index that cannot be")
-        met.add(index)
-        output.append(index)
-        which = min(19, symbol)
+    output = {}
+    free = list(range(count))
+    taken = set()
+    cost = [4096] * 12
+    for turn, v in enumerate(walk.order):
+        guesses = IndexGuesses(walk, turn, output, taken, cost)
+        index = decode_index(section, guesses, free, output[walk.order[turn - 1]] + 1 if turn > 0 else 0)
+        guesses.note(index)
+        output[v] = index
+        taken.add(index)
+        free.pop(bisect_left(free, index))
     section.check()
-    return output
+    return [output[v] for v in range(count)]
+
+
+def decode_index(section, guesses, free, behind):
+    ordered = guesses.ordered()
+    s = 1
+    if ordered:
+        _, s = section.decode(0, min(9, guesses.best >> 9))
+    if s == 1:
+        n, _ = section.decode(0, 10 + min(9, 3 * (guesses.best if ordered else 6144) >> 11))
+        r = bisect_left(free, ordered[0] if ordered else behind) + n
+        require(0 <= r < len(free), "an index that cannot be")
+        return free[r]
+    place = max(s - 1, 0)
+    require(place < len(ordered), "a guess that is not there")
+    return ordered[place]
 
 
 def build_fast_graph(grid, order):

@@ -188,12 +188,13 @@ def decode_mesh(data, draco_command):
     grid, plain_order = parts.grid, None
     if header.flags & PLAIN:
         plain_order = Order(header.vertex_count, flat)
-        grid = decode_positions(position, Walk(header.vertex_count, flat))
+        walk = Walk(header.vertex_count, flat)
+        grid = decode_positions(position, walk)
     if not header.flags & ORDER_KEPT:
         require(not order, "an order where none is kept")
         output = list(range(header.vertex_count))
     elif header.flags & PLAIN:
-        output = decode_plain_order(order, header.vertex_count, flat)
+        output = decode_plain_order(order, walk)
     else:
         output = decode_order(order, header.vertex_count, flat)
     faces = [[output[vertex[p]] for p in polygon] for polygon in parts.polygons]

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "codec/common/contraction.h"
-#include "codec/common/plain_mesh.h"
 #include "codec/enc/lane_field_encoder.h"
 #include "tests/codec/shapes.h"
 

@@ -23,6 +23,7 @@ struct Fixture {
   SurfaceGraph surface;
   LaneStart start;
   std::vector<float> first, second;
+  std::vector<float> narrow;  ///< the first block as it is kept
 
   explicit Fixture(const Shape& shape, float size = 9)
       : xyz(on_grid(shape, 12)),
@@ -37,6 +38,7 @@ struct Fixture {
         const auto lane = static_cast<float>(l);
         first.push_back(l < 8 ? size * (std::sin(p[0] + lane) + 0.1f * normal(random)) : 0.0f);
         second.push_back(size * (std::cos(p[1] - lane) + 0.1f * normal(random)));
+        if (l < kFirstLanes) narrow.push_back(first.back());
       }
     }
   }
@@ -45,7 +47,7 @@ struct Fixture {
   LaneWeightTask task(uint32_t blocks) const {
     LaneWeightTask out = {surface.graph.rows.data(), start.points.data()};
     if (blocks > 0) out.values = blocks == 1 ? first.data() : second.data();
-    if (blocks == 2) out.first_values = first.data();
+    if (blocks == 2) out.first_values = narrow.data();
     return out;
   }
   /// Value of plane k in a row.
