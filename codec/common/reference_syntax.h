@@ -12,6 +12,7 @@
 #include "codec/common/connectivity.h"
 #include "codec/common/mesh_state.h"
 #include "codec/common/reference_mesh.h"
+#include "codec/common/shared_places.h"
 #include "entropy/adaptive_bit.h"
 #include "entropy/integer_coder.h"
 
@@ -24,8 +25,12 @@ class SplitSyntax {
   template <class Coder>
   Status code(Coder& coder, MeshState& s) {
     uint32_t vertices = 0;
+    const std::vector<uint8_t> shared = shared_places(s.point_grid);
+    std::vector<uint32_t> alone;
     for (uint32_t p = 0; p < s.point_count; ++p) {
-      std::vector<uint32_t>& here = at_place_[place(&s.point_grid[size_t{p} * 3])];
+      alone.clear();
+      std::vector<uint32_t>& here =
+          shared[p] != 0 ? at_place_[place(&s.point_grid[size_t{p} * 3])] : alone;
       uint32_t& vertex = slot(s.vertex_of_point, p);
       if (!here.empty() &&
           same_[std::min<size_t>(here.size(), 2) - 1].code(coder, vertex < vertices)) {
@@ -56,7 +61,8 @@ class SplitSyntax {
            static_cast<uint64_t>(xyz[2]);
   }
 
-  std::unordered_map<uint64_t, std::vector<uint32_t>> at_place_;  // vertices, oldest first
+  // Vertices at places that points share, oldest first.
+  std::unordered_map<uint64_t, std::vector<uint32_t>> at_place_;
   AdaptiveBit same_[2];
   ExpGolombModel which_;
 };

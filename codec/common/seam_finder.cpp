@@ -17,11 +17,18 @@ SeamFinder::SeamFinder(std::span<const uint32_t> triangles, std::span<const uint
     : triangles_(triangles),
       twins_(twins),
       fans_(fans),
+      on_boundary_(point_count),
       coded_(point_count),
-      partner_(point_count, kNone) {}
+      partner_(point_count, kNone) {
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] == kNoTwin)
+      on_boundary_[triangles[h]] = on_boundary_[triangles[next_half_edge(h)]] = 1;
+  }
+}
 
 void SeamFinder::boundary_neighbours(uint32_t point, std::vector<uint32_t>& out) const {
   out.clear();
+  if (on_boundary_[point] == 0) return;
   for (const uint32_t h : fans_[point]) {
     if (out.size() >= kMaxNeighbours) return;
     const uint32_t next = next_half_edge(h);

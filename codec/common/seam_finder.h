@@ -32,6 +32,7 @@ class SeamFinder {
 
   std::span<const uint32_t> triangles_, twins_;
   const HalfEdgeFans& fans_;
+  std::vector<uint8_t> on_boundary_;  // ends of half-edges without twins
   std::vector<uint8_t> coded_;
   std::vector<uint32_t> partner_;                     // latest found at the same place
   std::unordered_map<uint64_t, uint32_t> latest_at_;  // boundary points by place

@@ -102,14 +102,14 @@ class SurfaceGraphBuilder {
       const auto [low, high] = ends(i);
       higher[next[low]++] = high;
     }
+    std::vector<uint32_t> count(points_.size(), 0);  // of the edges between v and each
     for (size_t v = 0; v < points_.size(); ++v) {
       const std::span<uint32_t> edges(higher.data() + begin[v], begin[v + 1] - begin[v]);
-      std::sort(edges.begin(), edges.end());
-      for (size_t i = 0; i < edges.size(); ++i) {
-        const bool single = (i == 0 || edges[i] != edges[i - 1]) &&
-                            (i + 1 == edges.size() || edges[i] != edges[i + 1]);
-        if (single) boundary_[v] = boundary_[edges[i]] = true;
+      for (const uint32_t u : edges) ++count[u];
+      for (const uint32_t u : edges) {
+        if (count[u] == 1) boundary_[v] = boundary_[u] = true;
       }
+      for (const uint32_t u : edges) count[u] = 0;
     }
   }
 
