@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/common/list_pool.h"
 #include "codec/common/neighbour_lists.h"
 #include "codec/common/sort_few.h"
 
@@ -22,6 +21,8 @@ constexpr uint32_t kMaxFaces = 256;
 constexpr uint32_t kMinProgress =
     200;  ///< stop when a level removes fewer than one vertex in this many
 
+constexpr uint32_t kNoFace = UINT32_MAX;
+
 using Indices = std::vector<uint32_t>;
 
 class Collapser {
@@ -31,20 +32,18 @@ class Collapser {
         max_extra_(max_extra),
         none_(points.size()),
         neighbours_({}, none_),
-        faces_({}),
+        faces_({}, kNoFace),
         seen_(points.size() + 1, 0),
         locked_(points.size(), 0) {
     Indices face_count(points.size(), 0);
     for (const uint32_t v : triangles) ++face_count[v];
     const auto crowded = [&](uint32_t v) { return face_count[v] > kMaxFaces; };
-    Indices kept;
-    kept.reserve(triangles.size());
+    triangles_.reserve(triangles.size() / 3);
     for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
-      const auto corners = triangles.subspan(i, 3);
-      if (std::none_of(corners.begin(), corners.end(), crowded))
-        kept.insert(kept.end(), corners.begin(), corners.end());
+      const Triangle t = {triangles[i], triangles[i + 1], triangles[i + 2]};
+      if (std::none_of(t.begin(), t.end(), crowded)) triangles_.push_back(t);
     }
-    make_lists(kept);
+    make_lists();
   }
 
   CollapseSequence run() {
@@ -75,28 +74,24 @@ class Collapser {
   }
   bool marked(uint32_t v) const { return seen_[v] == stamp_; }
 
-  void make_lists(const Indices& corners) {
-    Indices count(points_.size(), 0);
-    for (const uint32_t v : corners) ++count[v];
-    Indices room(points_.size());
-    for (size_t v = 0; v < room.size(); ++v) room[v] = count[v] + kMaxMerged / 2;
-    faces_ = ListPool(room);
-    for (size_t v = 0; v < room.size(); ++v) room[v] = std::max(2 * count[v], kMaxMerged + 4);
-    neighbours_ = NeighbourLists(room, none_);
-    triangles_.reserve(corners.size() / 3);
-    for (size_t i = 0; i < corners.size(); i += 3)
-      add_triangle({corners[i], corners[i + 1], corners[i + 2]});
-    for (uint32_t v = 0; v < points_.size(); ++v) neighbours_.filter(v, marker(++stamp_));
-  }
-
-  void add_triangle(const Triangle& t) {
-    const auto id = static_cast<uint32_t>(triangles_.size());
-    triangles_.push_back(t);
-    for (uint32_t i = 0; i < 3; ++i) {
-      faces_.push_back(t[i], id);
-      neighbours_.push_back(t[i], t[(i + 1) % 3]);
-      neighbours_.push_back(t[i], t[(i + 2) % 3]);
+  void make_lists() {
+    Indices room(points_.size(), 0);  // three more triangles than there are at first
+    for (const Triangle& t : triangles_) {
+      for (const uint32_t v : t) ++room[v];
     }
+    for (uint32_t& r : room) r += kMaxMerged / 2;
+    faces_ = NeighbourLists(room, kNoFace);
+    for (uint32_t& r : room) r = std::max(2 * (r - kMaxMerged / 2), kMaxMerged + 4);
+    neighbours_ = NeighbourLists(room, none_);
+    for (uint32_t f = 0; f < triangles_.size(); ++f) {
+      const Triangle& t = triangles_[f];
+      for (uint32_t i = 0; i < 3; ++i) {
+        faces_.push_back(t[i], f);
+        neighbours_.push_back(t[i], t[(i + 1) % 3]);
+        neighbours_.push_back(t[i], t[(i + 2) % 3]);
+      }
+    }
+    for (uint32_t v = 0; v < points_.size(); ++v) neighbours_.filter(v, marker(++stamp_));
   }
 
   /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
@@ -198,7 +193,10 @@ class Collapser {
     return -1;
   }
 
-  static bool has(const Triangle& t, uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+  // What follows goes without branches on what the mesh looks like: they are hard to foresee.
+  static bool has(const Triangle& t, uint32_t v) {
+    return ((t[0] == v) | (t[1] == v) | (t[2] == v)) != 0;
+  }
 
   /// Leaves in far_ the neighbours of `from` that are not marked, and marks them.
   void find_next_ring(std::span<const uint32_t> from) {
@@ -236,28 +234,33 @@ class Collapser {
 
   /// Pre-condition: near_ holds the neighbours of v.
   void collapse(uint32_t v, uint32_t target) {
-    // Of a copy: lists may move when others grow.
-    around_.assign(faces_[v].begin(), faces_[v].end());
-    for (const uint32_t f : around_) {
-      Triangle& t = triangles_[f];
-      if (has(t, target)) {
-        for (const uint32_t w : t) {
-          if (w != v) faces_.erase(w, f);
-        }
-      } else {
-        std::replace(t.begin(), t.end(), v, target);
-        faces_.push_back(target, f);
-      }
-    }
-    faces_.clear(v);
+    move_faces(v, target);
     mark(neighbours_[target]);
     for (const uint32_t w : near_) {
-      if (w == target || marked(w)) {
-        neighbours_.erase(w, v);
-      } else {
-        neighbours_.replace(w, v, target);
-        neighbours_.push_back(target, w);
-      }
+      const bool erases = ((w == target) | marked(w)) != 0;
+      neighbours_.replace_or_erase(w, v, target, erases);
+      neighbours_.push_back_if(!erases, target, w);
+    }
+  }
+
+  /// The target takes the place of v in its triangles; those that it has are gone.
+  void move_faces(uint32_t v, uint32_t target) {
+    const std::span<const uint32_t> faces = faces_[v];
+    around_.resize(std::max(around_.size(), 2 * faces.size()));
+    uint32_t* const moved = around_.data();
+    uint32_t* const gone = moved + faces.size();
+    size_t moved_count = 0, gone_count = 0;
+    for (const uint32_t f : faces) {
+      Triangle& t = triangles_[f];
+      const bool keeps = !has(t, target);
+      for (uint32_t& corner : t) corner = keeps && corner == v ? target : corner;
+      moved[moved_count] = gone[gone_count] = f;
+      moved_count += keeps ? 1 : 0;
+      gone_count += keeps ? 0 : 1;
+    }
+    for (size_t i = 0; i < moved_count; ++i) faces_.push_back(target, moved[i]);
+    for (size_t i = 0; i < gone_count; ++i) {
+      for (const uint32_t w : triangles_[gone[i]]) faces_.erase(w, gone[i]);
     }
   }
 
@@ -265,7 +268,7 @@ class Collapser {
   uint32_t max_extra_;
   uint32_t none_;  ///< beyond all vertices
   NeighbourLists neighbours_;
-  ListPool faces_;
+  NeighbourLists faces_;
   std::vector<Triangle> triangles_;
   Indices alive_;
   Indices seen_;  ///< stamp_ for what is marked

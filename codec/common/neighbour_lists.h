@@ -1,4 +1,4 @@
-// The neighbours of each vertex of a mesh that is being collapsed.
+// Lists per vertex of a mesh that is being collapsed: its neighbours, its triangles.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,19 @@
 
 namespace reeb {
 
-/// A list per vertex, in no order, whose room is given from the start. Behind the elements the room
-/// is filled with what stands for none, so that loops may go by eights: processors seldom foresee
-/// where a shorter one ends.
+/// A list per vertex, in no order, in one block of memory. Behind the elements its room is filled
+/// with what stands for none, so that loops may go by eights: processors seldom foresee where a
+/// shorter one ends. A list that outgrows its room moves to the end of the block, into twice as
+/// much.
 class NeighbourLists {
  public:
-  /// Empty lists with room for capacity[v] elements; `none` is no vertex.
+  /// Empty lists with room for more than capacity[v] elements; `none` is no element.
   NeighbourLists(const std::vector<uint32_t>& capacity, uint32_t none) : none_(none) {
     lists_.reserve(capacity.size());
     uint32_t begin = 0;
     for (const uint32_t c : capacity) {
-      lists_.push_back({begin, 0});
-      begin += padded(c);
+      lists_.push_back({begin, 0, padded(c + 1)});
+      begin += lists_.back().room;
     }
     items_.resize(begin, none);
   }
@@ -33,19 +34,25 @@ class NeighbourLists {
     return {items_.data() + lists_[list].begin, padded(lists_[list].size)};
   }
 
-  /// Pre-condition: there is room.
-  void push_back(uint32_t list, uint32_t x) {
+  void push_back(uint32_t list, uint32_t x) { push_back_if(true, list, x); }
+  /// Without a branch on the condition.
+  void push_back_if(bool condition, uint32_t list, uint32_t x) {
     List& l = lists_[list];
-    items_[l.begin + l.size++] = x;
+    items_[l.begin + l.size] = condition ? x : none_;
+    l.size += condition ? 1 : 0;
+    if (l.size == l.room) move(l);  // there is always room for one more
   }
 
   /// Pre-condition of both: x is in the list, once.
-  void erase(uint32_t list, uint32_t x) {
-    uint32_t& last = items_[lists_[list].begin + --lists_[list].size];
-    *find(list, x) = last;
-    last = none_;
+  void erase(uint32_t list, uint32_t x) { replace_or_erase(list, x, none_, true); }
+  /// Puts `by` in the place of x or, where it `erases`, nothing; without a branch on that.
+  void replace_or_erase(uint32_t list, uint32_t x, uint32_t by, bool erases) {
+    List& l = lists_[list];
+    uint32_t& last = items_[l.begin + l.size - 1];
+    *find(list, x) = erases ? last : by;
+    last = erases ? none_ : last;
+    l.size -= erases ? 1 : 0;
   }
-  void replace(uint32_t list, uint32_t x, uint32_t by) { *find(list, x) = by; }
 
   /// Keeps those for which `keep`, called once for each in turn, is true.
   template <class Keep>
@@ -63,11 +70,19 @@ class NeighbourLists {
 
  private:
   struct List {
-    uint32_t begin, size;
+    uint32_t begin, size, room;
   };
   using Four = uint32_t __attribute__((vector_size(16)));
 
   static uint32_t padded(uint32_t size) { return (size + 7) / 8 * 8; }
+
+  void move(List& l) {
+    const auto begin = static_cast<uint32_t>(items_.size());
+    l.room *= 2;
+    items_.resize(items_.size() + l.room, none_);
+    std::copy_n(items_.begin() + l.begin, l.size, items_.begin() + begin);
+    l.begin = begin;
+  }
 
   uint32_t* find(uint32_t list, uint32_t x) {
     uint32_t* at = items_.data() + lists_[list].begin;

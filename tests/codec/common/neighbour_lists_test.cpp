@@ -21,15 +21,12 @@ TEST_CASE("neighbour lists hold what sets hold, and none behind it", "[neighbour
       const auto by = static_cast<uint32_t>(100 + random() % 100);
       const bool replaces = random() % 2 == 0 && set.count(by) == 0;
       set.erase(x);
-      if (replaces) {
-        set.insert(by);
-        lists.replace(list, x, by);
-      } else {
-        lists.erase(list, x);
-      }
-    } else if (set.size() < capacity[list]) {
-      set.insert(x);
-      lists.push_back(list, x);
+      if (replaces) set.insert(by);
+      lists.replace_or_erase(list, x, by, !replaces);
+    } else {
+      const bool pushes = random() % 4 > 0;
+      if (pushes) set.insert(x);
+      lists.push_back_if(pushes, list, x);
     }
     const auto items = lists[list];
     REQUIRE(std::set<uint32_t>(items.begin(), items.end()) == set);
