@@ -437,7 +437,7 @@ def add_sections(m):
     listed = File(m.sound("listed_faces"))
     rest = read_reference(listed.chunks[1][1])["rest"]
     m.add("corner_out_of_range", "corrupt", "A listed face with a vertex that is not there.",
-          listed.edited(b"REFM", rest=rest[:len(rest) // 3] + bytes(2 * len(rest))))
+          listed.edited(b"REFM", rest=rest[:len(rest) // 2] + bytes(2 * len(rest))))
 
 
 def generate(folder):

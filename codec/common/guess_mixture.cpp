@@ -64,12 +64,23 @@ void ErrorModel::halve() {
   }
 }
 
-Probability GuessMixture::probability(int64_t part, int64_t whole) {
-  const auto w = static_cast<uint64_t>(whole);
-  const int excess = std::max(static_cast<int>(std::bit_width(w)) - 47, 0);
-  const uint64_t divisor = std::max(w >> excess, uint64_t{1});
-  const uint64_t ratio = (static_cast<uint64_t>(part) >> excess << 16) / divisor;
-  return static_cast<Probability>(std::clamp<uint64_t>(ratio, 1, 65535));
+void GuessMixture::make_room() {
+  const size_t size = guesses_.size();
+  weights_.resize(std::max(weights_.size(), 3 * size));
+  low_ = weights_.data();
+  high_ = low_ + size;
+  split_ = high_ + size;
+}
+
+void GuessMixture::find(int64_t place, uint32_t likely, uint64_t reach, Range& r) {
+  const bool up = likely == 0 || narrow(place, likely, r);
+  bool passed = false;
+  for (uint64_t split = likely; !passed && reach < (up ? r.last - split : split - r.first);
+       reach *= 2) {
+    split = up ? split + reach : split - reach;
+    passed = narrow(place, static_cast<uint32_t>(split), r) != up;
+  }
+  while (r.last - r.first > 1) narrow(place, r.first + (r.last - r.first) / 2, r);
 }
 
 void GuessMixture::observe(uint32_t value, uint64_t all) {

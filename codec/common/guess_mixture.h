@@ -2,7 +2,7 @@
 //
 // A guess is a place and a scale; how far the truth lies from the guesses of one kind, and how
 // often that kind is right, is learned while coding. The distributions of all guesses are added,
-// and the integer is found by halving its range. Integer arithmetic throughout.
+// and the integer is coded as an interval of the sum. Integer arithmetic throughout.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 
 namespace reeb {
 
@@ -95,37 +95,37 @@ inline ErrorModel::Reader ErrorModel::reader() const { return Reader(*this); }
 /// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
 class GuessMixture {
  public:
+  static constexpr size_t kMostGuesses = 256;
+
   GuessMixture(uint32_t kinds, uint32_t memory) : memory_(memory), models_(kinds) {}
 
   void clear() { guesses_.clear(); }
 
-  /// `place` in 1/256; one step of the error model is 1/8 of `scale`, which is in 1/256 too, 1 ..
-  /// 2^24.
+  /// Beyond kMostGuesses, guesses are ignored. `place` in 1/256; one step of the error model is 1/8
+  /// of `scale`, which is in 1/256 too, 1 .. 2^24.
   void add(uint32_t kind, int64_t place, uint32_t scale) {
+    if (guesses_.size() == kMostGuesses) return;
     ErrorModel& model = models_[kind];
     guesses_.push_back({model.reader(), place, int64_t{(1u << 23) / scale}, &model});
   }
 
   /// Codes `value` in 0 .. count-1 and learns it. The guesses see value v as the interval [v, v+1).
-  /// The range is split at `likely` (< count) first, then at distances reach, 2 reach, ... (reach >
-  /// 0) beyond until the value is passed, then in halves.
+  /// A decoder looks at `likely` (< count) first, then at distances reach, 2 reach, ... (reach > 0)
+  /// beyond until the value is passed, then halves the range.
   template <class Coder>
   uint32_t code(Coder& coder, uint32_t value, uint32_t count, uint32_t likely, uint64_t reach) {
-    const size_t size = guesses_.size();
-    weights_.resize(std::max(weights_.size(), 3 * size));
-    low_ = weights_.data();
-    high_ = low_ + size;
-    split_ = high_ + size;
+    make_room();
     Range r = {0, count, weigh(0, low_), weigh(count, high_)};
-    const bool up = likely == 0 || narrow(coder, value, likely, r);
-    bool passed = false;
-    for (uint64_t split = likely; !passed && reach < (up ? r.last - split : split - r.first);
-         reach *= 2) {
-      split = up ? split + reach : split - reach;
-      passed = narrow(coder, value, static_cast<uint32_t>(split), r) != up;
+    const int64_t start = r.low;
+    const auto whole = static_cast<uint64_t>(r.high - start);
+    if constexpr (requires { coder.find(whole); }) {
+      find(start + static_cast<int64_t>(coder.find(whole)), likely, reach, r);
+    } else {
+      r = {value, value + 1, weigh(value, low_), weigh(value + 1, high_)};
     }
-    while (r.last - r.first > 1) narrow(coder, value, r.first + (r.last - r.first) / 2, r);
-    observe(r.first, static_cast<uint64_t>(r.high - r.low));
+    const auto size = static_cast<uint64_t>(r.high - r.low);
+    coder.code({static_cast<uint64_t>(r.low - start), size, whole});
+    observe(r.first, size);
     return r.first;
   }
 
@@ -135,10 +135,13 @@ class GuessMixture {
     int64_t low, high;     // weight below each
   };
 
-  template <class Coder>
-  bool narrow(Coder& coder, uint32_t value, uint32_t split, Range& r) {
+  void make_room();
+  /// Narrows a range down to the value whose interval has `place`.
+  void find(int64_t place, uint32_t likely, uint64_t reach, Range& r);
+
+  bool narrow(int64_t place, uint32_t split, Range& r) {
     const int64_t weight = weigh(split, split_);
-    const bool up = coder.code(value >= split, probability(r.high - weight, r.high - r.low));
+    const bool up = place >= weight;
     (up ? r.first : r.last) = split;
     (up ? r.low : r.high) = weight;
     std::swap(up ? low_ : high_, split_);
@@ -156,7 +159,6 @@ class GuessMixture {
     }
   };
 
-  static Probability probability(int64_t part, int64_t whole);
   /// Weight of all values below `value`, up to a constant, by guess and in all; rises by at least
   /// kFloor per value.
   int64_t weigh(uint32_t value, int64_t* by_guess) const {

@@ -16,7 +16,7 @@
 #include "codec/common/reference_syntax.h"
 #include "codec/common/vertex_order.h"
 #include "codec/dec/draco_connectivity.h"
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 
 namespace reeb {
 namespace {
@@ -55,7 +55,7 @@ Status decode_state(const Sections& sections, const Limits& limits, uint64_t max
     state.triangles = std::move(mesh.triangles);
   }
   if (!plain) topology.emplace(state.point_count, state.triangles);
-  BinaryDecoder coder(sections.rest);
+  IntervalDecoder coder(sections.rest);
   return code_rest(coder, plain ? nullptr : &*topology, state,
                    kMaxCornersPerFace * limits.max_faces);
 }
@@ -104,14 +104,14 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
                     std::equal(triangles.begin(), triangles.end(), topology->triangles.begin(),
                                topology->triangles.end());
   if (!same) topology.emplace(h.vertex_count, triangles);
-  BinaryDecoder coder(bytes);
+  IntervalDecoder coder(bytes);
   return code_vertex_order(coder, *topology, output_index);
 }
 
 /// Puts the faces into the order of the input, where the stream keeps it.
 Status decode_face_order(const MeshHeader& h, std::span<const uint8_t> bytes, Connectivity& faces) {
   if ((h.flags & MeshHeader::kFaceOrderKept) == 0) return {};
-  BinaryDecoder coder(bytes);
+  IntervalDecoder coder(bytes);
   const FaceOrderContext context(faces);
   FaceOrder order;
   if (Status s = code_face_order(coder, context, order); !s.ok()) return s;

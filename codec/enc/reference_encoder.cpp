@@ -21,7 +21,7 @@
 #include "codec/enc/draco_connectivity_encoder.h"
 #include "codec/enc/face_matching.h"
 #include "codec/enc/face_set.h"
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 
 namespace reeb {
 
@@ -196,7 +196,7 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
     bytes = coder.finish();
     return {};
   }
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   const std::vector<uint32_t> triangles = collect_triangles(state);
   Status status =
       code_vertex_order(coder, TriangleTopology(state.vertex_count, triangles), output_index);
@@ -210,7 +210,7 @@ Status write_face_order(const Connectivity& input, const MeshState& state,
   for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
   const Connectivity faces = collect_faces(state, output_index);
   FaceOrder order = match_faces(faces, input);
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   Status status = code_face_order(coder, FaceOrderContext(faces), order);
   bytes = coder.finish();
   return status;
@@ -219,7 +219,7 @@ Status write_face_order(const Connectivity& input, const MeshState& state,
 Status write_mesh(const Connectivity& input, const DracoPlan& plan,
                   const std::vector<uint32_t>& coding, const ReferenceOptions& options,
                   MeshState& state, std::vector<uint8_t>& bytes) {
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   std::vector<uint8_t> positions;
   MeshWalk walk;
   if (options.plain) {

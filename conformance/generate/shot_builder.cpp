@@ -136,7 +136,7 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   state.face_count = static_cast<uint32_t>(connectivity.face_sizes.size());
   state.grid.assign(grid.begin(), grid.end());
   state.listed = {connectivity.face_sizes, connectivity.corners};
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   const TriangleTopology no_triangles(0, {});
   require(code_rest(coder, &no_triangles, state, std::numeric_limits<uint64_t>::max()));
   const Bytes rest = coder.finish();

@@ -1,4 +1,4 @@
-"""entropy.md: range decoder, adaptive bits, integers, mixed bits."""
+"""entropy.md: range decoder, adaptive bits, integers, mixed bits, interval decoder."""
 import math
 
 from .arithmetic import clamp
@@ -45,6 +45,52 @@ class RangeDecoder:
     def check(self):
         """Called wherever a section may be refused, and at its end."""
         require(self.position <= len(self.data) + 4, "a section is read past its end")
+
+
+class IntervalDecoder:
+    """Section 5."""
+
+    def __init__(self, data):
+        self.data = data
+        self.position = 0
+        self.code = 0
+        self.range = (1 << 64) - 1
+        for _ in range(8):
+            self.code = self.code * 256 + self.next_byte()
+
+    def next_byte(self):
+        self.position += 1
+        return self.data[self.position - 1] if self.position <= len(self.data) else 0
+
+    def shift(self):
+        while self.range < 1 << 56:
+            self.code = (self.code * 256 + self.next_byte()) % (1 << 64)
+            self.range *= 256
+
+    def decode(self, p1):
+        bound = (self.range >> 16) * p1
+        if self.code < bound:
+            bit = 1
+            self.range = bound
+        else:
+            bit = 0
+            self.code -= bound
+            self.range -= bound
+        self.shift()
+        return bit
+
+    def decode_interval(self, whole, find):
+        """What find(place) gives: (integer, below, size)."""
+        unit = self.range // whole
+        integer, below, size = find(min(self.code // unit, whole - 1))
+        self.code = (self.code - unit * below) % (1 << 64)
+        self.range = self.range - unit * below if below + size == whole else unit * size
+        self.shift()
+        return integer
+
+    def check(self):
+        """Called wherever a section may be refused, and at its end."""
+        require(self.position <= len(self.data) + 8, "a section is read past its end")
 
 
 class AdaptiveBit:

@@ -2,6 +2,7 @@
 from .arithmetic import clamp, floor_log2
 
 SHARE = 4096
+MOST_GUESSES = 256
 
 
 class ErrorModel:
@@ -74,47 +75,36 @@ class GuessMixture:
         self.models = [ErrorModel() for _ in range(kinds)]
         self.memory = memory
 
-    def decode(self, decoder, guesses, count, likely, reach):
+    def decode(self, decoder, guesses, count):
         """A value of 0 .. count-1."""
+        guesses = guesses[:MOST_GUESSES]
+        known = {}  # W of all guesses, by bound
 
-        def weight(x):
-            """S."""
-            return 256 * x + sum(self.models[g.kind].weight_to(g.error(256 * x)) for g in guesses)
+        def weights(x):
+            if x not in known:
+                known[x] = [self.models[g.kind].weight_to(g.error(256 * x)) for g in guesses]
+            return known[x]
 
-        first, last = 0, count
-        weight_first, weight_last = weight(first), weight(last)
+        def s(x):
+            return 256 * x + sum(weights(x))
 
-        def split(x):
-            """Decodes whether the value is not below x."""
-            nonlocal first, last, weight_first, weight_last
-            here = weight(x)
-            part, whole = weight_last - here, weight_last - weight_first
-            shift = max(0, whole.bit_length() - 47)
-            p1 = clamp(((part >> shift) << 16) // max(1, whole >> shift), 1, 65535)
-            up = decoder.decode(p1)
-            if up:
-                first, weight_first = x, here
-            else:
-                last, weight_last = x, here
-            return up
+        def find(place):
+            first, last = 0, count
+            x = clamp(guesses[0].place // 256, 1, count) if guesses else 1  # a likely bound, then halves
+            step = 1
+            while last - first > 1:
+                if s(x) - s(0) <= place:
+                    first, x = x, x + step
+                else:
+                    last, x = x, x - step
+                step *= 2
+                if not first < x < last:
+                    x = first + (last - first) // 2
+            return first, s(first) - s(0), s(first + 1) - s(first)
 
-        up = split(likely) if likely > 0 else 1
-        x = likely
-        while True:
-            x = x + reach if up else x - reach
-            reach *= 2
-            if not first < x < last or split(x) != up:
-                break
-        while last - first > 1:
-            split(first + (last - first) // 2)
-        self.learn(guesses, first, weight(first + 1) - weight(first))
-        return first
-
-    def learn(self, guesses, v, everything):
-        shares = []
-        for g in guesses:
-            model = self.models[g.kind]
-            own = model.weight_to(g.error(256 * (v + 1))) - model.weight_to(g.error(256 * v))
-            shares.append(own * SHARE // everything)
+        v = decoder.decode_interval(s(count) - s(0), find)
+        everything = s(v + 1) - s(v)
+        shares = [(w - u) * SHARE // everything for u, w in zip(weights(v), weights(v + 1))]
         for g, share in zip(guesses, shares):
             self.models[g.kind].learn(g.error(256 * v + 128), share, self.memory)
+        return v

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from .bytes import Reader
 from .connectivity import NONE, after, find_twins, join_triangles
 from .container import FACE_ORDER_KEPT, ORDER_KEPT, PLAIN, read_mesh_header
-from .entropy import EVEN, AdaptiveBit, ExpGolomb, RangeDecoder, SignedInteger
+from .entropy import EVEN, AdaptiveBit, ExpGolomb, IntervalDecoder, SignedInteger
 from .errors import Corrupt, Truncated, require
 from .fast import Order, Walk, decode_plain_order, decode_positions
 from .guesses import Guess, GuessMixture
@@ -61,7 +61,7 @@ class Rest:
     """The section *rest*, section 2 of the chapter."""
 
     def __init__(self, data, header, point_count, triangles):
-        self.decoder = RangeDecoder(data)
+        self.decoder = IntervalDecoder(data)
         self.header = header
         self.triangles = triangles
         self.twins = find_twins(triangles)
@@ -144,7 +144,7 @@ class Rest:
             for axis in range(3):
                 places = (256 * x1[axis] + 128, 256 * (2 * x1[axis] - x2[axis]) + 128, 256 * x2[axis] + 128)
                 guesses = [Guess(3 * axis + i, place, 128 + 8 * t[axis]) for i, place in enumerate(places)]
-                x = mixture.decode(self.decoder, guesses, GRID_SIZE, x1[axis], 1 + t[axis] // 16)
+                x = mixture.decode(self.decoder, guesses, GRID_SIZE)
                 t[axis] = t[axis] + abs(x - x1[axis]) - t[axis] // 16
                 x2[axis], x1[axis] = x1[axis], x
                 position.append(x)

@@ -2,14 +2,14 @@
 import bisect
 
 from .connectivity import NONE, after, before, coding_order, edges_from, find_twins
-from .entropy import RangeDecoder, adaptive_bits
+from .entropy import IntervalDecoder, adaptive_bits
 from .guesses import Guess, GuessMixture
 
 SCALE = 2048
 
 
 def decode_order(data, vertex_count, triangles):
-    return decode_indices(RangeDecoder(data), vertex_count, triangles)
+    return decode_indices(IntervalDecoder(data), vertex_count, triangles)
 
 
 def decode_indices(decoder, vertex_count, triangles, expected=None):
@@ -32,18 +32,14 @@ def decode_indices(decoder, vertex_count, triangles, expected=None):
         guesses = []
         for j, index in enumerate(parallelogram_indices(v, k, triangles, twins, fans, turn, output)):
             guesses.append(Guess(min(6 + j, 8), 256 * rank(index), SCALE))
-        likely = 0
         if k > 0:
-            likely = rank(output[u[k - 1]])
-            guesses.append(Guess(0, 256 * likely, SCALE))
+            guesses.append(Guess(0, 256 * rank(output[u[k - 1]]), SCALE))
         beside = {turn[p] for h in fans[v] for p in (triangles[after(h)], triangles[before(h)])}
         for j, turn_of_neighbour in enumerate(sorted((t for t in beside if t < k), reverse=True)):
-            r = rank(output[u[turn_of_neighbour]])
-            likely = r if j == 0 else likely
-            guesses.append(Guess(min(1 + j, 5), 256 * r, SCALE))
+            guesses.append(Guess(min(1 + j, 5), 256 * rank(output[u[turn_of_neighbour]]), SCALE))
         if expected is not None:
             guesses.append(Guess(9, 256 * rank(expected[v]), SCALE))
-        r = mixture.decode(decoder, guesses, len(free), min(likely, len(free) - 1), 1)
+        r = mixture.decode(decoder, guesses, len(free))
         decoder.check()
         output[v] = free.pop(r)
     return output
@@ -66,7 +62,7 @@ def parallelogram_indices(v, k, triangles, twins, fans, turn, output):
 
 def arrange_faces(data, vertex_count, faces):
     """Section 8: the faces in the order of the output, each from its first corner on."""
-    decoder = RangeDecoder(data)
+    decoder = IntervalDecoder(data)
     expected = [min(face) * len(faces) // vertex_count for face in faces]
     index = decode_indices(decoder, len(faces), dual_triangles(faces), expected)
     arranged = [None] * len(faces)

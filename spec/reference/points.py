@@ -199,12 +199,7 @@ class PointDecoder:
                 guesses.append(guess(5 + situation, fitted, sigma))
                 for tip in tips[:2]:
                     guesses.append(guess(15 + situation, tip[axis], sigma))
-            if axis > 0 and candidates:
-                likely = candidates[0][axis]
-            else:
-                likely = int(clamp(math.floor(fitted + 0.5), 0, GRID_SIZE - 1))
-            reach = 1 + int(min(sigma, 1000.0))
-            x = self.mixture.decode(self.decoder, guesses, GRID_SIZE, likely, reach)
+            x = self.mixture.decode(self.decoder, guesses, GRID_SIZE)
 
             e = x - fitted
             errors += abs(e)

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "codec/enc/face_matching.h"
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 #include "tests/codec/shapes.h"
 
 using namespace reeb;
@@ -26,7 +26,7 @@ Connectivity shuffled(const Connectivity& faces, uint32_t seed) {
 }
 
 std::vector<uint8_t> code(const Connectivity& faces, FaceOrder order) {
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   REQUIRE(code_face_order(coder, FaceOrderContext(faces), order).ok());
   return coder.finish();
 }
@@ -41,7 +41,7 @@ TEST_CASE("faces are put back into any order", "[face_order]") {
       const Connectivity faces = shuffled(input, seed);
       CHECK((faces == input) == input.corners.empty());
       const std::vector<uint8_t> bytes = code(faces, match_faces(faces, input));
-      BinaryDecoder decoder(bytes);
+      IntervalDecoder decoder(bytes);
       FaceOrder decoded;
       const FaceOrderContext context(faces);
       REQUIRE(code_face_order(decoder, context, decoded).ok());
@@ -65,7 +65,7 @@ TEST_CASE("a cut order of faces is corrupt", "[face_order]") {
   const FaceOrder order = match_faces(rows, shuffled(rows, 4));
   const std::vector<uint8_t> bytes = code(rows, order);
   for (size_t size = 0; size + 8 < bytes.size(); size += 7) {
-    BinaryDecoder decoder(std::span<const uint8_t>(bytes).first(size));
+    IntervalDecoder decoder(std::span<const uint8_t>(bytes).first(size));
     FaceOrder decoded;
     CHECK(code_face_order(decoder, FaceOrderContext(rows), decoded).code() == StatusCode::kCorrupt);
   }

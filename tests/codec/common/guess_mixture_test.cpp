@@ -39,7 +39,7 @@ std::vector<uint32_t> run(Coder& coder, std::vector<uint32_t> values, uint32_t l
 }
 
 size_t coded_size(const std::vector<uint32_t>& values) {
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   run(coder, values, 500, 2);
   return coder.finish().size();
 }
@@ -52,18 +52,20 @@ TEST_CASE("values come back wherever the search starts", "[guess_mixture]") {
   values.insert(values.end(), {0, kCount - 1, 1, kCount - 2});
   for (const uint32_t likely : {0u, 1u, 500u, kCount - 1}) {
     for (const uint64_t reach : {uint64_t{1}, uint64_t{7}, uint64_t{5000}, uint64_t{1} << 40}) {
-      BinaryEncoder encoder;
-      run(encoder, values, likely, reach);
+      IntervalEncoder encoder;
+      run(encoder, values, 0, 1);  // which do not matter to an encoder
       const std::vector<uint8_t> bytes = encoder.finish();
-      BinaryDecoder decoder(bytes);
+      IntervalDecoder decoder(bytes);
       CHECK(run(decoder, std::vector<uint32_t>(values.size()), likely, reach) == values);
+      CHECK(!decoder.overrun());
     }
   }
 }
 
 TEST_CASE("a range of one value costs nothing", "[guess_mixture]") {
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   GuessMixture mixture(1, 64);
+  mixture.add(0, 77, 256);
   CHECK(mixture.code(coder, 0, 1, 0, 1) == 0);
   CHECK(coder.finish().empty());
 }
@@ -79,13 +81,28 @@ TEST_CASE("good guesses approach the entropy of their error", "[guess_mixture]")
 
 TEST_CASE("no guess at all costs about the raw bits", "[guess_mixture]") {
   std::mt19937 random(5);
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   GuessMixture mixture(1, 64);
   for (int i = 0; i < 4000; ++i) {
     mixture.code(coder, static_cast<uint32_t>(random() % 1024), 1024, 0, 1);
   }
   const double bits = 8.0 * static_cast<double>(coder.finish().size()) / 4000;
   CHECK(bits == Approx(10).epsilon(0.01));
+}
+
+TEST_CASE("more guesses than are counted change nothing", "[guess_mixture]") {
+  const auto code = [](size_t guesses) {
+    IntervalEncoder coder;
+    GuessMixture mixture(2, 64);
+    for (uint32_t i = 0; i < 50; ++i) {
+      mixture.clear();
+      for (size_t k = 0; k < guesses; ++k)
+        mixture.add(k < GuessMixture::kMostGuesses ? 0 : 1, static_cast<int64_t>(k << 8), 256);
+      mixture.code(coder, 7 * i, kCount, 0, 1);
+    }
+    return coder.finish();
+  };
+  CHECK(code(GuessMixture::kMostGuesses) == code(100 * GuessMixture::kMostGuesses));
 }
 
 TEST_CASE("weights of an error model rise with the error and stay whole", "[guess_mixture]") {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 
 using namespace reeb;
 using List = std::vector<uint32_t>;
@@ -34,7 +34,7 @@ double bits_per_vertex(uint32_t n, Height height) {
   }
   PointPredictor predictor(topology);
   GuessMixture guesses(PointPredictor::kKindCount, PointPredictor::kMemory);
-  BinaryEncoder coder;
+  IntervalEncoder coder;
   for (const uint32_t p : topology.order) {
     predictor.start(p, grid);
     for (size_t axis = 0; axis < 3; ++axis) {

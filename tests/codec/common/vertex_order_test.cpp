@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "entropy/range_coder.h"
+#include "entropy/interval_coder.h"
 
 using namespace reeb;
 
@@ -16,11 +16,11 @@ std::vector<uint32_t> code_order(const std::vector<uint32_t>& order,
                                  const std::vector<uint32_t>& triangles, double& bits) {
   std::vector<uint32_t> copy = order;
   const auto n = static_cast<uint32_t>(order.size());
-  BinaryEncoder encoder;
+  IntervalEncoder encoder;
   REQUIRE(code_vertex_order(encoder, TriangleTopology(n, triangles), copy).ok());
   const std::vector<uint8_t> bytes = encoder.finish();
   bits = 8.0 * static_cast<double>(bytes.size());
-  BinaryDecoder decoder(bytes);
+  IntervalDecoder decoder(bytes);
   std::vector<uint32_t> decoded;
   REQUIRE(code_vertex_order(decoder, TriangleTopology(n, triangles), decoded).ok());
   return decoded;
@@ -105,11 +105,11 @@ TEST_CASE("an order along the mesh is cheap in any coding order", "[vertex_order
 TEST_CASE("an order that is cut off is an error or a permutation", "[vertex_order]") {
   const auto order = shuffled(300, 8);
   std::vector<uint32_t> copy = order;
-  BinaryEncoder encoder;
+  IntervalEncoder encoder;
   REQUIRE(code_vertex_order(encoder, TriangleTopology(300, {}), copy).ok());
   const std::vector<uint8_t> bytes = encoder.finish();
   const std::span<const uint8_t> half(bytes.data(), bytes.size() / 2);
-  BinaryDecoder decoder(half);
+  IntervalDecoder decoder(half);
   std::vector<uint32_t> decoded;
   CHECK(code_vertex_order(decoder, TriangleTopology(300, {}), decoded).code() ==
         StatusCode::kCorrupt);
