@@ -53,26 +53,35 @@ void learn_displacement(DisplacementBatch& batch, const DisplacementFrame& frame
   batch.energy = batch.energy * kEnergyKept + error * (1 - kEnergyKept);
 }
 
-void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]) {
+/// Of the lanes from `first` on.
+inline void solve_lanes(const DisplacementBatch& batch, uint32_t first, float* const* out) {
+  const auto part = [first](const Lanes& of) {
+    return load<Doubles>(reinterpret_cast<const double*>(&of) + first);
+  };
   const uint32_t n = batch.count;
-  Lanes a[kSystem];
-  Lanes* const w = a + packed(n, 0);
-  Lanes trace{};
-  for (uint32_t i = 0; i < n; ++i) trace += batch.matrix[packed(i, i)];
-  const Lanes by_error = batch.energy * kInverseVariance;
-  const Lanes by_trace = trace * kLeastRidge;
-  const Lanes ridge = (by_error > by_trace ? by_error : by_trace) + kTinyRidge;
+  Doubles a[kSystem];
+  Doubles* const w = a + packed(n, 0);
+  Doubles trace{};
+  for (uint32_t i = 0; i < n; ++i) trace += part(batch.matrix[packed(i, i)]);
+  const Doubles by_error = part(batch.energy) * kInverseVariance;
+  const Doubles by_trace = trace * kLeastRidge;
+  const Doubles ridge = (by_error > by_trace ? by_error : by_trace) + kTinyRidge;
   for (uint32_t i = 0; i < n; ++i) {
-    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = batch.matrix[packed(i, j)];
+    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = part(batch.matrix[packed(i, j)]);
     a[packed(i, i)] += ridge;
-    w[i] = batch.target[i] + ridge * batch.prior[i];
+    w[i] = part(batch.target[i]) + ridge * part(batch.prior[i]);
   }
   solve_system<1>(n, a);
   for (uint32_t i = 0; i < n; ++i) {
-    const Lanes zero{};
+    const Doubles zero{};
     w[i] = w[i] < kLargestWeight && w[i] > -kLargestWeight ? w[i] : zero;
-    for (uint32_t l = 0; l < kLanes; ++l) out[l][i] = static_cast<float>(w[i][l]);
   }
+  store_weights(w, n, out);
+}
+
+void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]) {
+  for (uint32_t first = 0; first < kLanes; first += kDoubles)
+    solve_lanes(batch, first, out + first);
 }
 
 }  // namespace

@@ -23,15 +23,20 @@ using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 /// matrix is strip[i][j] for i < 8; for i >= 8, strip[i][j] left of column 8, strip[16][i - 8] on
 /// the diagonal, strip[15 - i][16 - i + j - 8] between them, which fills the rows above.
 struct alignas(64) RowEquations {
-  Lanes strip[kMaxNeighbours + 1];
+  double strip[kMaxNeighbours + 1][8];
 };
 /// Their right sides, which are 0 where weights sum to one.
 using RowTarget = std::array<double, kMaxNeighbours>;
 
-/// Leaves what the reference positions tell of eight rows in their equations: y[i] is where
-/// neighbour i < n lies from the row, 0 for padding.
-using ObservePointsKernel = void (*)(const Lanes (*y)[3], const Lanes& inverse_noise, uint32_t n,
-                                     RowEquations* const rows[kLanes]);
+/// Where the neighbours of kLanes rows lie from them in the reference, by axis: 0 for padding.
+struct PointDifferences {
+  double neighbour[kMaxNeighbours][3][kLanes];
+  double inverse_noise[kLanes];
+};
+
+/// Leaves what they tell in the equations of the rows, which have n neighbours at most.
+using ObservePointsKernel = void (*)(const PointDifferences&, uint32_t n,
+                                     RowEquations* const* rows);
 
 /// Components that rows may learn from together.
 inline constexpr uint32_t kObservations = 16;

@@ -16,10 +16,8 @@ namespace reeb::REEB_KERNEL_NAMESPACE {
 
 namespace {
 
-/// As many integers as floats in a register; a register of doubles, and as many floats.
+/// As many integers as floats in a register.
 using Words = int32_t __attribute__((vector_size(kFloats * sizeof(float))));
-using Doubles = double __attribute__((vector_size(kFloats * sizeof(float))));
-using HalfFloats = float __attribute__((vector_size(kFloats / 2 * sizeof(float))));
 
 /// sum + a b, a and b being pairs of 16-bit integers.
 inline Words add_products(Words sum, Words a, uint32_t pair) {

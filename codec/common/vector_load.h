@@ -1,4 +1,4 @@
-// Reading vectors that need not be aligned; see kernels_impl.h.
+// Reading and writing vectors that need not be aligned; see kernels_impl.h.
 #pragma once
 
 #include <array>
@@ -15,6 +15,11 @@ inline V load(const T* from) {
   V out;
   std::memcpy(&out, from, sizeof out);
   return out;
+}
+
+template <class V, class T>
+inline void store(T* to, const V& values) {
+  std::memcpy(to, &values, sizeof values);
 }
 
 /// The elements of an array, without a member of it: see ComponentTile.

@@ -27,42 +27,47 @@ using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
 /// Eight floats, however many registers that takes.
 using Floats8 = float __attribute__((vector_size(8 * sizeof(float))));
 
-/// out[i][l] = in[l][i].
-template <class Vector>
-inline void transpose(const Vector* in, Vector* out) {
-  Vector a[8];
-  Vector b[8];
-  for (uint32_t i = 0; i < 4; ++i) {
-    a[2 * i] = __builtin_shufflevector(in[i], in[i + 4], 0, 8, 1, 9, 2, 10, 3, 11);
-    a[2 * i + 1] = __builtin_shufflevector(in[i], in[i + 4], 4, 12, 5, 13, 6, 14, 7, 15);
-  }
-  // a[2 i + h] holds elements 4 h .. 4 h + 3 of the vectors i and i + 4, by turns.
-  for (uint32_t h = 0; h < 2; ++h) {
-    for (uint32_t i = 0; i < 2; ++i) {
-      const Vector x = a[2 * i + h];
-      const Vector y = a[2 * i + 4 + h];
-      b[4 * h + 2 * i] = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
-      b[4 * h + 2 * i + 1] = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
-    }
-  }
-  // b[4 h + 2 i + g] holds elements 4 h + 2 g, + 1 of the vectors i, i + 2, i + 4, i + 6, by turns.
-  for (uint32_t h = 0; h < 2; ++h) {
-    for (uint32_t g = 0; g < 2; ++g) {
-      const Vector x = b[4 * h + g];
-      const Vector y = b[4 * h + 2 + g];
-      out[4 * h + 2 * g] = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
-      out[4 * h + 2 * g + 1] = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
-    }
-  }
+/// A register of doubles, and as many floats: GCC 12 takes wider vectors apart in memory.
+constexpr uint32_t kDoubles = kFloats / 2;
+using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
+using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
+
+/// x[from], y[from], x[from + 1], y[from + 1], ...
+template <uint32_t from, class V, uint32_t... l>
+inline V interleave(V x, V y, std::integer_sequence<uint32_t, l...>) {
+  return __builtin_shufflevector(x, y, (from + l / 2 + l % 2 * sizeof...(l))...);
 }
 
-/// Calls function(k, entry) for the lanes k of a strip whose entries are of a matrix of n rows.
+/// out[i][l] = in[l][i]. A perfect shuffle of all elements rotates the bits of their index: as many
+/// as there are bits in l make it i.
+template <class V>
+inline void transpose(const V* in, V* out) {
+  constexpr uint32_t n = sizeof(V) / sizeof(in[0][0]);
+  constexpr auto kEach = std::make_integer_sequence<uint32_t, n>();
+  V turns[2][n];
+  for (uint32_t i = 0; i < n; ++i) turns[0][i] = in[i];
+  uint32_t turn = 0;
+  for (uint32_t done = 1; done < n; done *= 2) {
+    const V* from = turns[turn];
+    turn ^= 1;
+    for (uint32_t i = 0; i < n / 2; ++i) {
+      turns[turn][2 * i] = interleave<0>(from[i], from[i + n / 2], kEach);
+      turns[turn][2 * i + 1] = interleave<n / 2>(from[i], from[i + n / 2], kEach);
+    }
+  }
+  for (uint32_t i = 0; i < n; ++i) out[i] = turns[turn][i];
+}
+
+/// Calls function(k, entry) for the entries `first` + k of a strip, k < kDoubles, that are of a
+/// matrix of n rows.
 template <class Function>
-inline void for_each_entry(uint32_t strip, uint32_t n, Function function) {
-  for (uint32_t k = 0; k < 8; ++k) {
-    const bool upper = strip < 8 && k <= strip;
-    const uint32_t i = upper || (strip >= 8 && strip < 16) ? strip : strip < 8 ? 15 - strip : 8 + k;
-    const uint32_t j = upper || (strip >= 8 && strip < 16) ? k : strip < 8 ? 7 - strip + k : 8 + k;
+inline void for_each_entry(uint32_t strip, uint32_t first, uint32_t n, Function function) {
+  for (uint32_t k = 0; k < kDoubles; ++k) {
+    const uint32_t at = first + k;
+    const bool upper = strip < 8 && at <= strip;
+    const bool square = strip >= 8 && strip < 16;
+    const uint32_t i = upper || square ? strip : strip < 8 ? 15 - strip : 8 + at;
+    const uint32_t j = upper || square ? at : strip < 8 ? 7 - strip + at : 8 + at;
     if (i < n) function(k, packed(i, j));
   }
 }
@@ -71,24 +76,29 @@ inline void for_each_entry(uint32_t strip, uint32_t n, Function function) {
 inline uint32_t strip_count(uint32_t n) { return n <= 8 ? 8 : kMaxNeighbours + 1; }
 
 inline void load_equations(const RowEquations* equations, const uint32_t* rows, uint32_t n,
-                           Lanes* matrix) {
-  Lanes in[8];
-  Lanes out[8];
+                           Doubles* matrix) {
+  Doubles in[kDoubles];
+  Doubles out[kDoubles];
   for (uint32_t strip = 0; strip < strip_count(n); ++strip) {
-    for (uint32_t l = 0; l < kLanes; ++l) in[l] = equations[rows[l]].strip[strip];
-    transpose(in, out);
-    for_each_entry(strip, n, [&](uint32_t k, uint32_t entry) { matrix[entry] = out[k]; });
+    for (uint32_t first = 0; first < 8; first += kDoubles) {
+      for (uint32_t l = 0; l < kDoubles; ++l)
+        in[l] = load<Doubles>(equations[rows[l]].strip[strip] + first);
+      transpose(in, out);
+      for_each_entry(strip, first, n, [&](uint32_t k, uint32_t entry) { matrix[entry] = out[k]; });
+    }
   }
 }
 
-inline void store_equations(const Lanes* matrix, RowEquations* const rows[kLanes]) {
-  Lanes in[8];
-  Lanes out[8];
+inline void store_equations(const Doubles* matrix, RowEquations* const* rows) {
+  Doubles in[kDoubles] = {};
+  Doubles out[kDoubles];
   for (uint32_t strip = 0; strip <= kMaxNeighbours; ++strip) {
-    for_each_entry(strip, kMaxNeighbours,
-                   [&](uint32_t k, uint32_t entry) { in[k] = matrix[entry]; });
-    transpose(in, out);
-    for (uint32_t l = 0; l < kLanes; ++l) rows[l]->strip[strip] = out[l];
+    for (uint32_t first = 0; first < 8; first += kDoubles) {
+      for_each_entry(strip, first, kMaxNeighbours,
+                     [&](uint32_t k, uint32_t entry) { in[k] = matrix[entry]; });
+      transpose(in, out);
+      for (uint32_t l = 0; l < kDoubles; ++l) store(rows[l]->strip[strip] + first, out[l]);
+    }
   }
 }
 
@@ -112,80 +122,62 @@ inline void collect(const FoldTask& task, bool to_one, Said& said) {
   }
 }
 
-constexpr uint32_t kRows = kFloats / 2;  // all sums stay in registers
-
-/// y[0], ..., y[k], then y[8], y[9], ...
-template <uint32_t k, uint32_t... l>
-inline Lanes columns_of_corner(Lanes low, Lanes high, std::integer_sequence<uint32_t, l...>) {
-  return __builtin_shufflevector(low, high, (l <= k ? l : 7 - k + l)...);
+/// All ones where place first + l is below k, for each lane l.
+template <uint32_t k, uint32_t first, uint32_t... l>
+inline auto mask_below(std::integer_sequence<uint32_t, l...>) {
+  using Mask = int64_t __attribute__((vector_size(sizeof(Doubles))));
+  return Mask{(first + l < k ? -1 : 0)...};
 }
 
-/// What strip k adds of one observation: the first k + 1 lanes are of row k, the others of row
-/// 15 - k.
-template <uint32_t k>
-inline Lanes corner(const double* y, Lanes low, Lanes high) {
-  using Mask = int64_t __attribute__((vector_size(sizeof(Lanes))));
-  constexpr Mask kOfRow = {-1,
-                           k > 0 ? -1 : 0,
-                           k > 1 ? -1 : 0,
-                           k > 2 ? -1 : 0,
-                           k > 3 ? -1 : 0,
-                           k > 4 ? -1 : 0,
-                           k > 5 ? -1 : 0,
-                           k > 6 ? -1 : 0};
-  const Lanes row = kOfRow ? Lanes{} + y[k] : Lanes{} + y[15 - k];
-  return row * columns_of_corner<k>(low, high, std::make_integer_sequence<uint32_t, 8>());
+/// What strip k < 8 adds of an observation in its places `first` and on: up to place k row k of
+/// y y^T, beyond it row 15 - k from column 8 on.
+template <uint32_t k, uint32_t first>
+inline Doubles corner(const double* y) {
+  const auto upper = mask_below<k + 1, first>(std::make_integer_sequence<uint32_t, kDoubles>());
+  const auto column = load<Doubles>(y + first);
+  const auto beyond = load<Doubles>(y + first + 7 - k);
+  return (upper ? Doubles{} + y[k] : Doubles{} + y[15 - k]) * (upper ? column : beyond);
 }
 
-/// Adds to the strips `first` and on, of the first eight.
+/// Adds to places `first` and on of the first eight strips: all sums stay in registers.
 template <uint32_t first, uint32_t... k>
-inline void add_corners(Lanes* strip, const FoldTask& task, const Said& said,
+inline void add_corners(RowEquations& row, const FoldTask& task, const Said& said,
                         std::integer_sequence<uint32_t, k...>) {
-  Lanes sum[] = {strip[first + k]...};
-  for (uint32_t o = task.begin; o < task.end; ++o) {
-    const double* y = said.y[o];
-    const auto low = load<Lanes>(y);
-    const auto high = load<Lanes>(y + 8);
-    ((sum[k] += corner<first + k>(y, low, high)), ...);
-  }
-  ((strip[first + k] = sum[k]), ...);
+  Doubles sum[] = {load<Doubles>(row.strip[k] + first)...};
+  for (uint32_t o = task.begin; o < task.end; ++o) ((sum[k] += corner<k, first>(said.y[o])), ...);
+  (store(row.strip[k] + first, sum[k]), ...);
 }
 
 template <uint32_t first = 0>
-inline void add_all_corners(Lanes* strip, const FoldTask& task, const Said& said) {
+inline void add_all_corners(RowEquations& row, const FoldTask& task, const Said& said) {
   if constexpr (first < 8) {
-    add_corners<first>(strip, task, said, std::make_integer_sequence<uint32_t, kRows>());
-    add_all_corners<first + kRows>(strip, task, said);
+    add_corners<first>(row, task, said, std::make_integer_sequence<uint32_t, 8>());
+    add_all_corners<first + kDoubles>(row, task, said);
   }
 }
 
-/// Adds to kRows strips of the next eight: rows i and on, columns 0 .. 7.
-inline void add_square(Lanes* strip, const FoldTask& task, const Said& said, uint32_t i) {
-  Lanes sum[kRows];
-  for (uint32_t k = 0; k < kRows; ++k) sum[k] = strip[i + k];
+/// The same for the other strips: rows 8 to 15, columns 0 to 7, and the diagonal beyond.
+inline void add_square(RowEquations& row, const FoldTask& task, const Said& said, uint32_t first) {
+  Doubles sum[8];
+  for (uint32_t k = 0; k < 8; ++k) sum[k] = load<Doubles>(row.strip[8 + k] + first);
+  auto diagonal = load<Doubles>(row.strip[kMaxNeighbours] + first);
   for (uint32_t o = task.begin; o < task.end; ++o) {
-    const auto y = load<Lanes>(said.y[o]);
-    for (uint32_t k = 0; k < kRows; ++k) sum[k] += said.y[o][i + k] * y;
+    const double* y = said.y[o];
+    const auto column = load<Doubles>(y + first);
+    const auto beyond = load<Doubles>(y + 8 + first);
+    for (uint32_t k = 0; k < 8; ++k) sum[k] += y[8 + k] * column;
+    diagonal += beyond * beyond;
   }
-  for (uint32_t k = 0; k < kRows; ++k) strip[i + k] = sum[k];
-}
-
-/// Adds to the last strip.
-inline void add_diagonal(Lanes* strip, const FoldTask& task, const Said& said) {
-  for (uint32_t o = task.begin; o < task.end; ++o) {
-    const auto y = load<Lanes>(said.y[o] + 8);
-    strip[kMaxNeighbours] += y * y;
-  }
+  for (uint32_t k = 0; k < 8; ++k) store(row.strip[8 + k] + first, sum[k]);
+  store(row.strip[kMaxNeighbours] + first, diagonal);
 }
 
 void fold(RowEquations& row, double* target, const FoldTask& task) {
   Said said;
   collect(task, target == nullptr, said);
-  add_all_corners(row.strip, task, said);
-  if (task.count > 8) {
-    for (uint32_t i = 8; i < kMaxNeighbours; i += kRows) add_square(row.strip, task, said, i);
-    add_diagonal(row.strip, task, said);
-  }
+  add_all_corners(row, task, said);
+  for (uint32_t first = 0; first < 8 && task.count > 8; first += kDoubles)
+    add_square(row, task, said, first);
   if (target == nullptr) return;
   for (uint32_t o = task.begin; o < task.end; ++o) {
     for (uint32_t i = 0; i < kMaxNeighbours; ++i)
@@ -193,31 +185,36 @@ void fold(RowEquations& row, double* target, const FoldTask& task) {
   }
 }
 
-void observe_points(const Lanes (*y)[3], const Lanes& inverse_noise, uint32_t n,
-                    RowEquations* const rows[kLanes]) {
-  Lanes matrix[kTriangle] = {};
-  for (uint32_t i = 0; i < n; ++i) {
-    for (uint32_t j = 0; j <= i; ++j) {
-      const Lanes dot = y[i][0] * y[j][0] + y[i][1] * y[j][1] + y[i][2] * y[j][2];
-      matrix[packed(i, j)] = dot * inverse_noise;
+void observe_points(const PointDifferences& y, uint32_t n, RowEquations* const* rows) {
+  for (uint32_t first = 0; first < kLanes; first += kDoubles) {
+    const auto of = [&](uint32_t i, uint32_t a) {
+      return load<Doubles>(y.neighbour[i][a] + first);
+    };
+    const auto inverse_noise = load<Doubles>(y.inverse_noise + first);
+    Doubles matrix[kTriangle] = {};
+    for (uint32_t i = 0; i < n; ++i) {
+      for (uint32_t j = 0; j <= i; ++j) {
+        const Doubles dot = of(i, 0) * of(j, 0) + of(i, 1) * of(j, 1) + of(i, 2) * of(j, 2);
+        matrix[packed(i, j)] = dot * inverse_noise;
+      }
     }
+    store_equations(matrix, rows + first);
   }
-  store_equations(matrix, rows);
 }
 
-/// The rows of the lanes.
+/// The rows of a register.
 struct SolveRows {
-  const PredictionGraph::Row* row[kLanes];
-  uint32_t index[kLanes];
+  const PredictionGraph::Row* row[kDoubles];
+  const uint32_t* index;
   uint32_t count = 0;  ///< the most neighbours that one has
-  Lanes counts;
-  Lanes rings;
+  Doubles counts;
+  Doubles rings;
 };
 
 inline SolveRows rows_of(const SolveTask& task, const uint32_t* rows) {
   SolveRows out;
-  for (uint32_t l = 0; l < kLanes; ++l) {
-    out.index[l] = rows[l];
+  out.index = rows;
+  for (uint32_t l = 0; l < kDoubles; ++l) {
     out.row[l] = task.rows + rows[l];
     out.count = out.row[l]->count > out.count ? out.row[l]->count : out.count;
     out.counts[l] = out.row[l]->count;
@@ -226,33 +223,33 @@ inline SolveRows rows_of(const SolveTask& task, const uint32_t* rows) {
   return out;
 }
 
-/// out[k], for k < 8: the k-th of the floats at from(lane), of every lane.
+/// out[k], for k < kDoubles: the k-th of the floats at from(lane), of every lane.
 template <class From>
-inline void gather_lanes(From from, Lanes* out) {
-  Floats8 in[8];
-  Floats8 turned[8];
-  for (uint32_t l = 0; l < kLanes; ++l) in[l] = load<Floats8>(from(l));
+inline void gather_lanes(From from, Doubles* out) {
+  HalfFloats in[kDoubles];
+  HalfFloats turned[kDoubles];
+  for (uint32_t l = 0; l < kDoubles; ++l) in[l] = load<HalfFloats>(from(l));
   transpose(in, turned);
-  for (uint32_t k = 0; k < 8; ++k) out[k] = __builtin_convertvector(turned[k], Lanes);
+  for (uint32_t k = 0; k < kDoubles; ++k) out[k] = __builtin_convertvector(turned[k], Doubles);
 }
 
 /// Adds what is expected of the weights to the matrix, and writes the right sides: w, and ones
 /// where there is a neighbour.
-inline void expect(const SolveTask& task, const SolveRows& rows, Lanes* a) {
+inline void expect(const SolveTask& task, const SolveRows& rows, Doubles* a) {
   const uint32_t n = rows.count;
-  Lanes* const w = a + packed(n, 0);
-  Lanes* const ones = a + packed(n + 1, 0);
-  const Lanes zero{};
-  for (uint32_t first = 0; first < n; first += 8) {
-    Lanes prior[8];
-    Lanes precision[8];
+  Doubles* const w = a + packed(n, 0);
+  Doubles* const ones = a + packed(n + 1, 0);
+  const Doubles zero{};
+  for (uint32_t first = 0; first < n; first += kDoubles) {
+    Doubles prior[kDoubles];
+    Doubles precision[kDoubles];
     gather_lanes([&](uint32_t l) { return elements(rows.row[l]->prior) + first; }, prior);
     gather_lanes([&](uint32_t l) { return elements(rows.row[l]->precision) + first; }, precision);
-    for (uint32_t k = 0; k < 8 && first + k < n; ++k) {
+    for (uint32_t k = 0; k < kDoubles && first + k < n; ++k) {
       const uint32_t i = first + k;
-      const Lanes place = zero + static_cast<double>(i);
-      const Lanes sure = precision[k] * (place < rows.rings ? zero + task.ring_precision
-                                                            : zero + task.extra_precision);
+      const Doubles place = zero + static_cast<double>(i);
+      const Doubles sure = precision[k] * (place < rows.rings ? zero + task.ring_precision
+                                                              : zero + task.extra_precision);
       a[packed(i, i)] += sure;
       w[i] = prior[k] * sure;
       ones[i] = place < rows.counts ? zero + 1 : zero;
@@ -260,40 +257,45 @@ inline void expect(const SolveTask& task, const SolveRows& rows, Lanes* a) {
   }
 }
 
-inline void add_targets(const SolveTask& task, const SolveRows& rows, Lanes* w) {
-  for (uint32_t l = 0; l < kLanes; ++l) {
+inline void add_targets(const SolveTask& task, const SolveRows& rows, Doubles* w) {
+  for (uint32_t l = 0; l < kDoubles; ++l) {
     const double* target = elements(task.targets[rows.index[l]]);
     for (uint32_t i = 0; i < rows.count; ++i) w[i][l] += target[i];
   }
 }
 
-inline void store_weights(const Lanes* w, float* const* out) {
-  for (uint32_t i = 0; i < kMaxNeighbours; i += 8) {
-    Floats8 in[8];
-    Floats8 turned[8];
-    for (uint32_t k = 0; k < 8; ++k) in[k] = __builtin_convertvector(w[i + k], Floats8);
+/// n weights of every lane, and zeros up to kMaxNeighbours.
+inline void store_weights(const Doubles* w, uint32_t n, float* const* out) {
+  for (uint32_t first = 0; first < kMaxNeighbours; first += kDoubles) {
+    HalfFloats in[kDoubles] = {};
+    HalfFloats turned[kDoubles];
+    for (uint32_t k = 0; k < kDoubles && first + k < n; ++k)
+      in[k] = __builtin_convertvector(w[first + k], HalfFloats);
     transpose(in, turned);
-    for (uint32_t l = 0; l < kLanes; ++l) std::memcpy(out[l] + i, &turned[l], sizeof turned[l]);
+    for (uint32_t l = 0; l < kDoubles; ++l) store(out[l] + first, turned[l]);
   }
 }
 
-void solve(const SolveTask& task, const uint32_t* indices, float* const* out) {
+inline void solve_register(const SolveTask& task, const uint32_t* indices, float* const* out) {
   const SolveRows rows = rows_of(task, indices);
-  const bool to_one = task.targets == nullptr;
   const uint32_t n = rows.count;
-  Lanes a[kSystem];
+  Doubles a[kSystem];
+  Doubles* const w = a + packed(n, 0);
   load_equations(task.equations, rows.index, n, a);
   expect(task, rows, a);
-  if (to_one) {
+  if (task.targets == nullptr) {
     solve_system<2>(n, a);
-    constrain(n, a + packed(n, 0), a + packed(n + 1, 0));
+    constrain(n, w, a + packed(n + 1, 0));
   } else {
-    add_targets(task, rows, a + packed(n, 0));
+    add_targets(task, rows, w);
     solve_system<1>(n, a);
   }
-  Lanes w[kMaxNeighbours] = {};
-  for (uint32_t i = 0; i < n; ++i) w[i] = a[packed(n, i)];
-  store_weights(w, out);
+  store_weights(w, n, out);
+}
+
+void solve(const SolveTask& task, const uint32_t* rows, float* const* out) {
+  for (uint32_t first = 0; first < kLanes; first += kDoubles)
+    solve_register(task, rows + first, out + first);
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ void observe_rows(const PredictionGraph& graph, const GridPoints& points,
                   const Kernels& kernels, BatchVector<RowEquations>& equations) {
   constexpr double kGridVariance = 0.25;  // of half a grid unit
   constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
-  Lanes y[kMaxNeighbours][3] = {};
-  Lanes inverse_noise{};
+  PointDifferences y{};
   RowEquations* out[kLanes];
   uint32_t most = 0;
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -31,14 +30,14 @@ void observe_rows(const PredictionGraph& graph, const GridPoints& points,
     for (uint32_t i = 0; i < row.count; ++i) {
       for (int a = 0; a < 3; ++a) {
         const int64_t d = points[order[row.neighbour[i]]][a] - points[order[r]][a];
-        y[i][a][lane] = static_cast<double>(d);
+        y.neighbour[i][a][lane] = static_cast<double>(d);
         spread += d * d;
       }
     }
-    inverse_noise[lane] =
+    y.inverse_noise[lane] =
         1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
   }
-  kernels.observe_points(y, inverse_noise, most, out);
+  kernels.observe_points(y, most, out);
 }
 
 /// All rows together are far larger than what the processor keeps at hand.
@@ -126,7 +125,9 @@ void WeightEstimator::fold(uint32_t r, const List& list) {
 void WeightEstimator::fade(double factor, const Planes& planes) {
   end_list(planes);
   for (uint32_t r = 0; r < graph_.size(); ++r) {
-    for (Lanes& entries : equations_[r].strip) entries *= factor;
+    for (auto& strip : equations_[r].strip) {
+      for (double& entry : strip) entry *= factor;
+    }
     if (options_.sum_to_one) continue;
     for (double& entry : targets_[r]) entry *= factor;
   }
