@@ -81,7 +81,7 @@ class Collapser {
     }
     for (uint32_t& r : room) r += kMaxMerged / 2;
     faces_ = NeighbourLists(room, kNoFace);
-    for (uint32_t& r : room) r = std::max(2 * (r - kMaxMerged / 2), kMaxMerged + 4);
+    for (uint32_t& r : room) r = 2 * (r - kMaxMerged / 2);
     neighbours_ = NeighbourLists(room, none_);
     for (uint32_t f = 0; f < triangles_.size(); ++f) {
       const Triangle& t = triangles_[f];

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <span>
 #include <vector>
+
+#include "codec/common/batches.h"
 
 namespace reeb {
 
@@ -20,25 +23,26 @@ class NeighbourLists {
     lists_.reserve(capacity.size());
     uint32_t begin = 0;
     for (const uint32_t c : capacity) {
-      lists_.push_back({begin, 0, padded(c + 1)});
-      begin += lists_.back().room;
+      const uint32_t lines = c / kLine + 1;
+      lists_.push_back({begin, 0, lines * kLine});
+      begin += lines * kLine;
     }
-    items_.resize(begin, none);
+    lines_.resize(begin / kLine, empty_line());
   }
 
   std::span<const uint32_t> operator[](uint32_t list) const {
-    return {items_.data() + lists_[list].begin, lists_[list].size};
+    return {items() + lists_[list].begin, lists_[list].size};
   }
   /// The same, filled up with none to a multiple of eight.
   std::span<const uint32_t> by_eights(uint32_t list) const {
-    return {items_.data() + lists_[list].begin, padded(lists_[list].size)};
+    return {items() + lists_[list].begin, padded(lists_[list].size)};
   }
 
   void push_back(uint32_t list, uint32_t x) { push_back_if(true, list, x); }
   /// Without a branch on the condition.
   void push_back_if(bool condition, uint32_t list, uint32_t x) {
     List& l = lists_[list];
-    items_[l.begin + l.size] = condition ? x : none_;
+    items()[l.begin + l.size] = condition ? x : none_;
     l.size += condition ? 1 : 0;
     if (l.size == l.room) move(l);  // there is always room for one more
   }
@@ -48,7 +52,7 @@ class NeighbourLists {
   /// Puts `by` in the place of x or, where it `erases`, nothing; without a branch on that.
   void replace_or_erase(uint32_t list, uint32_t x, uint32_t by, bool erases) {
     List& l = lists_[list];
-    uint32_t& last = items_[l.begin + l.size - 1];
+    uint32_t& last = items()[l.begin + l.size - 1];
     *find(list, x) = erases ? last : by;
     last = erases ? none_ : last;
     l.size -= erases ? 1 : 0;
@@ -57,14 +61,14 @@ class NeighbourLists {
   /// Keeps those for which `keep`, called once for each in turn, is true.
   template <class Keep>
   void filter(uint32_t list, Keep keep) {
-    uint32_t* const items = items_.data() + lists_[list].begin;
+    uint32_t* const all = items() + lists_[list].begin;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lists_[list].size; ++i) {
-      const uint32_t x = items[i];
-      items[kept] = x;
+      const uint32_t x = all[i];
+      all[kept] = x;
       kept += keep(x) ? 1 : 0;
     }
-    std::fill(items + kept, items + lists_[list].size, none_);
+    std::fill(all + kept, all + lists_[list].size, none_);
     lists_[list].size = kept;
   }
 
@@ -72,20 +76,31 @@ class NeighbourLists {
   struct List {
     uint32_t begin, size, room;
   };
+  static constexpr uint32_t kLine = 16;
+  struct alignas(64) Line {
+    uint32_t items[kLine];
+  };
   using Four = uint32_t __attribute__((vector_size(16)));
 
+  uint32_t* items() { return lines_.data()->items; }
+  const uint32_t* items() const { return lines_.data()->items; }
+  Line empty_line() const {
+    Line line;
+    std::fill(std::begin(line.items), std::end(line.items), none_);
+    return line;
+  }
   static uint32_t padded(uint32_t size) { return (size + 7) / 8 * 8; }
 
   void move(List& l) {
-    const auto begin = static_cast<uint32_t>(items_.size());
+    const auto begin = static_cast<uint32_t>(lines_.size() * kLine);
     l.room *= 2;
-    items_.resize(items_.size() + l.room, none_);
-    std::copy_n(items_.begin() + l.begin, l.size, items_.begin() + begin);
+    lines_.resize((begin + l.room) / kLine, empty_line());
+    std::copy_n(items() + l.begin, l.size, items() + begin);
     l.begin = begin;
   }
 
   uint32_t* find(uint32_t list, uint32_t x) {
-    uint32_t* at = items_.data() + lists_[list].begin;
+    uint32_t* at = items() + lists_[list].begin;
     for (;; at += 8) {
       const uint32_t place = place_among_eight(at, x);
       if (place > 0) return at + place - 1;
@@ -104,7 +119,7 @@ class NeighbourLists {
   }
 
   uint32_t none_;
-  std::vector<uint32_t> items_;
+  BatchVector<Line> lines_;  // a list starts in one of its own
   std::vector<List> lists_;
 };
 
