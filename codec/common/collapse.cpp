@@ -33,6 +33,7 @@ class Collapser {
         none_(points.size()),
         neighbours_({}, none_),
         faces_({}, kNoFace),
+        edges_(points.size(), 0),
         seen_(points.size() + 1, 0),
         locked_(points.size(), 0) {
     Indices face_count(points.size(), 0);
@@ -91,7 +92,10 @@ class Collapser {
         neighbours_.push_back(t[i], t[(i + 2) % 3]);
       }
     }
-    for (uint32_t v = 0; v < points_.size(); ++v) neighbours_.filter(v, marker(++stamp_));
+    for (uint32_t v = 0; v < points_.size(); ++v) {
+      neighbours_.filter(v, marker(++stamp_));
+      for (const uint32_t u : neighbours_[v]) edges_[v] += points_.distance_q4(v, u);
+    }
   }
 
   /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
@@ -102,9 +106,7 @@ class Collapser {
     std::array<uint32_t, kDigits> low_begin{}, high_begin{};
     keys_.clear();
     for (const uint32_t v : alive_) {
-      uint64_t sum = 0;
-      for (const uint32_t u : neighbours_[v]) sum += points_.distance_q4(v, u);
-      const uint64_t mean = sum / std::max<size_t>(1, neighbours_[v].size());
+      const uint64_t mean = edges_[v] / std::max<size_t>(1, neighbours_[v].size());
       keys_.push_back(mean << 32 | v);
       ++low_begin[mean % kDigits];
       ++high_begin[mean >> kDigitBits];
@@ -240,6 +242,9 @@ class Collapser {
       const bool erases = ((w == target) | marked(w)) != 0;
       neighbours_.replace_or_erase(w, v, target, erases);
       neighbours_.push_back_if(!erases, target, w);
+      const uint32_t added = erases ? 0 : points_.distance_q4(w, target);
+      edges_[w] += added - points_.distance_q4(w, v);
+      edges_[target] += added;
     }
   }
 
@@ -270,6 +275,7 @@ class Collapser {
   NeighbourLists neighbours_;
   NeighbourLists faces_;
   std::vector<Triangle> triangles_;
+  Indices edges_;  ///< of every vertex, the lengths of its edges in all: below 2^30
   Indices alive_;
   Indices seen_;  ///< stamp_ for what is marked
   uint32_t stamp_ = 0;
