@@ -21,6 +21,7 @@ constexpr uint32_t kMaxFaces = 256;
 constexpr uint32_t kMinProgress =
     200;  ///< stop when a level removes fewer than one vertex in this many
 
+constexpr size_t kMostFrom = 16;  ///< vertices whose neighbours are looked for together
 constexpr uint32_t kNoFace = UINT32_MAX;
 
 using Indices = std::vector<uint32_t>;
@@ -35,7 +36,7 @@ class Collapser {
         faces_({}, kNoFace),
         edges_(points.size(), 0),
         seen_(points.size() + 1, 0),
-        locked_(points.size(), 0) {
+        locked_(points.size() + 1, 0) {
     Indices face_count(points.size(), 0);
     for (const uint32_t v : triangles) ++face_count[v];
     const auto crowded = [&](uint32_t v) { return face_count[v] > kMaxFaces; };
@@ -69,9 +70,11 @@ class Collapser {
     return [this, stamp](uint32_t v) { return std::exchange(seen_[v], stamp) != stamp; };
   }
 
+  /// `vertices` may be filled up with none_, which is not marked.
   void mark(std::span<const uint32_t> vertices) {
     ++stamp_;
     for (const uint32_t v : vertices) seen_[v] = stamp_;
+    seen_[none_] = 0;
   }
   bool marked(uint32_t v) const { return seen_[v] == stamp_; }
 
@@ -92,10 +95,13 @@ class Collapser {
         neighbours_.push_back(t[i], t[(i + 2) % 3]);
       }
     }
+    size_t longest = kMaxMerged + 4;
     for (uint32_t v = 0; v < points_.size(); ++v) {
       neighbours_.filter(v, marker(++stamp_));
+      longest = std::max(longest, neighbours_.by_eights(v).size());
       for (const uint32_t u : neighbours_[v]) edges_[v] += points_.distance_q4(v, u);
     }
+    far_.resize(by_eights(kMostFrom * longest + 1));
   }
 
   /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
@@ -132,8 +138,7 @@ class Collapser {
       const auto v = static_cast<uint32_t>(key);
       const size_t valence = neighbours_[v].size();
       if (locked_[v] == level_ || valence == 0 || valence > kMaxValence) continue;
-      near_.assign(neighbours_[v].begin(), neighbours_[v].end());
-      sort_by_distance(v, near_);
+      take_near(v);
       const int64_t target = choose_target(v);
       if (target < 0) continue;
       Collapse& made = out.emplace_back();
@@ -145,33 +150,53 @@ class Collapser {
     const size_t removed = out.size() - before;
     for (size_t i = before; i < out.size(); ++i)
       locked_[out[i].vertex] = UINT32_MAX;  // gone for good
-    std::erase_if(alive_, [&](uint32_t v) { return locked_[v] == UINT32_MAX; });
+    size_t kept = 0;
+    for (const uint32_t v : alive_) {
+      alive_[kept] = v;
+      kept += locked_[v] == UINT32_MAX ? 0 : 1;
+    }
+    alive_.resize(kept);
     return removed;
+  }
+
+  /// Leaves the neighbours of v in near_, nearest first, and none_ behind them.
+  void take_near(uint32_t v) {
+    near_count_ = neighbours_[v].size();
+    const std::span<const uint32_t> list = neighbours_.by_eights(v);
+    near_.fill(none_);
+    std::copy(list.begin(), list.end(), near_.begin());
+    sort_by_distance(v, near_.data(), near_count_);
+  }
+  std::span<const uint32_t> near() const { return std::span(near_).first(near_count_); }
+  std::span<const uint32_t> near_by_eights() const {
+    return std::span(near_).first(by_eights(near_count_));
   }
 
   /// Locks the vertices in near_, by index the ring.
   void note_ring(FixedList<uint32_t, 16>& ring) {
-    std::array<int32_t, kFew> keys{};
-    for (size_t i = 0; i < near_.size(); ++i) {
-      ring.push_back(near_[i]);
-      keys[i] = static_cast<int32_t>(near_[i]);
+    std::array<int32_t, 16> keys;
+    for (size_t i = 0; i < near_by_eights().size(); ++i) {
+      keys[i] = i < near_count_ ? static_cast<int32_t>(near_[i]) : kNoKey;
       locked_[near_[i]] = level_;
     }
-    sort_few(keys, std::span(ring.begin(), ring.size()));
+    std::copy(near_.begin(), near_.end(), ring.begin());
+    sort_few(keys.data(), ring.begin(), near_count_);
+    ring.resize(near_count_);
   }
 
-  void sort_by_distance(uint32_t v, std::span<uint32_t> vertices) const {
-    if (vertices.size() <= kFew) {
-      std::array<int32_t, kFew> keys{};
+  /// There is room for `vertices` by eights.
+  void sort_by_distance(uint32_t v, uint32_t* vertices, size_t count) const {
+    if (count <= kFew) {
+      std::array<int32_t, kFew> keys;
       uint64_t bits = 0;
-      for (size_t i = 0; i < vertices.size(); ++i) {
-        const uint64_t distance2 = points_.distance2(v, vertices[i]);
-        keys[i] = static_cast<int32_t>(distance2);
+      for (size_t i = 0; i < by_eights(count); ++i) {
+        const uint64_t distance2 = points_.distance2(v, i < count ? vertices[i] : v);
+        keys[i] = i < count ? static_cast<int32_t>(distance2) : kNoKey;
         bits |= distance2;
       }
-      if (bits >> 31 == 0 && sort_few(keys, vertices)) return;
+      if (bits < kNoKey && sort_few(keys.data(), vertices, count)) return;
     }
-    std::sort(vertices.begin(), vertices.end(), [&](uint32_t a, uint32_t b) {
+    std::sort(vertices, vertices + count, [&](uint32_t a, uint32_t b) {
       return std::pair(points_.distance2(v, a), a) < std::pair(points_.distance2(v, b), b);
     });
   }
@@ -179,12 +204,12 @@ class Collapser {
   /// Nearest neighbour that v can be merged into without changing the topology; -1 if there is
   /// none. Pre-condition: near_ holds the neighbours of v, nearest first.
   int64_t choose_target(uint32_t v) {
-    mark(near_);
+    mark(near_by_eights());
     const std::span<const uint32_t> faces = faces_[v];
-    const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_.size() ? 2 : 1;
-    for (const uint32_t u : near_) {
-      if (neighbours_[u].size() + near_.size() > kMaxMerged + 4) continue;
-      if (near_.size() <= 2) return u;  // a loose end, nothing to protect
+    const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_count_ ? 2 : 1;
+    for (const uint32_t u : near()) {
+      if (neighbours_[u].size() + near_count_ > kMaxMerged + 4) continue;
+      if (near_count_ <= 2) return u;  // a loose end, nothing to protect
       const std::span<const uint32_t> others = neighbours_.by_eights(u);
       const auto common =
           std::count_if(others.begin(), others.end(), [&](uint32_t w) { return marked(w); });
@@ -200,11 +225,9 @@ class Collapser {
     return ((t[0] == v) | (t[1] == v) | (t[2] == v)) != 0;
   }
 
-  /// Leaves in far_ the neighbours of `from` that are not marked, and marks them.
+  /// Leaves in far_ the neighbours of `from`, at most kMostFrom, that are not marked, and marks
+  /// them.
   void find_next_ring(std::span<const uint32_t> from) {
-    size_t most = 0;
-    for (const uint32_t w : from) most += neighbours_.by_eights(w).size();
-    far_.resize(std::max(far_.size(), most));
     const auto is_new = marker(stamp_);
     size_t size = 0;
     for (const uint32_t w : from) {
@@ -213,32 +236,32 @@ class Collapser {
         size += is_new(u) ? 1 : 0;
       }
     }
-    far_size_ = size;
+    far_count_ = size;
   }
 
   /// The nearest of the second ring, then of the third. Pre-condition: near_ and its marks as
   /// choose_target leaves them.
   void find_far_neighbours(uint32_t v, FixedList<uint32_t, 16>& extra) {
     seen_[v] = seen_[none_] = stamp_;
-    find_next_ring(near_);
+    find_next_ring(near());
     add_nearest_far(v, extra);
     if (extra.size() == max_extra_) return;
-    around_.assign(far_.begin(), far_.begin() + far_size_);
-    find_next_ring(around_);
+    const FixedList<uint32_t, 16> second = extra;
+    find_next_ring(std::span(second.begin(), second.size()));
     add_nearest_far(v, extra);
   }
   void add_nearest_far(uint32_t v, FixedList<uint32_t, 16>& extra) {
-    const std::span<uint32_t> far(far_.data(), far_size_);
-    sort_by_distance(v, far);
-    for (const uint32_t u : far.first(std::min(far.size(), max_extra_ - extra.size())))
-      extra.push_back(u);
+    sort_by_distance(v, far_.data(), far_count_);
+    const size_t count = std::min(far_count_, max_extra_ - extra.size());
+    std::copy_n(far_.begin(), count, extra.end());
+    extra.resize(extra.size() + count);
   }
 
   /// Pre-condition: near_ holds the neighbours of v.
   void collapse(uint32_t v, uint32_t target) {
     move_faces(v, target);
-    mark(neighbours_[target]);
-    for (const uint32_t w : near_) {
+    mark(neighbours_.by_eights(target));
+    for (const uint32_t w : near()) {
       const bool erases = ((w == target) | marked(w)) != 0;
       neighbours_.replace_or_erase(w, v, target, erases);
       neighbours_.push_back_if(!erases, target, w);
@@ -258,7 +281,10 @@ class Collapser {
     for (const uint32_t f : faces) {
       Triangle& t = triangles_[f];
       const bool keeps = !has(t, target);
-      for (uint32_t& corner : t) corner = keeps && corner == v ? target : corner;
+      for (uint32_t& corner : t) {
+        const bool moves = keeps & (corner == v);
+        corner ^= (corner ^ target) & (0u - static_cast<uint32_t>(moves));
+      }
       moved[moved_count] = gone[gone_count] = f;
       moved_count += keeps ? 1 : 0;
       gone_count += keeps ? 0 : 1;
@@ -281,10 +307,11 @@ class Collapser {
   uint32_t stamp_ = 0;
   Indices locked_;  ///< level at which the vertex must stay
   uint32_t level_ = 0;
-  Indices near_;  ///< neighbours of the vertex at hand, nearest first
-  Indices far_;   ///< others near it, the first far_size_
-  size_t far_size_ = 0;
-  Indices around_;  ///< its second ring, then its triangles
+  std::array<uint32_t, 16> near_;  ///< neighbours of the vertex at hand, nearest first
+  size_t near_count_ = 0;
+  Indices far_;  ///< others near it, the first far_count_
+  size_t far_count_ = 0;
+  Indices around_;  ///< its triangles
   std::vector<uint64_t> keys_, sorted_;
 };
 

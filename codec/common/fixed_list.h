@@ -19,6 +19,9 @@ class FixedList {
     ++size_;
   }
 
+  /// New elements are those that are written behind `end` before or after.
+  void resize(size_t size) { size_ = static_cast<uint32_t>(size); }
+
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const T& operator[](size_t i) const { return items_[i]; }

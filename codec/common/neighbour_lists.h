@@ -42,7 +42,7 @@ class NeighbourLists {
   /// Without a branch on the condition.
   void push_back_if(bool condition, uint32_t list, uint32_t x) {
     List& l = lists_[list];
-    items()[l.begin + l.size] = condition ? x : none_;
+    items()[l.begin + l.size] = choose(condition, x, none_);
     l.size += condition ? 1 : 0;
     if (l.size == l.room) move(l);  // there is always room for one more
   }
@@ -53,8 +53,8 @@ class NeighbourLists {
   void replace_or_erase(uint32_t list, uint32_t x, uint32_t by, bool erases) {
     List& l = lists_[list];
     uint32_t& last = items()[l.begin + l.size - 1];
-    *find(list, x) = erases ? last : by;
-    last = erases ? none_ : last;
+    *find(list, x) = choose(erases, last, by);
+    last = choose(erases, none_, last);
     l.size -= erases ? 1 : 0;
   }
 
@@ -90,6 +90,10 @@ class NeighbourLists {
     return line;
   }
   static uint32_t padded(uint32_t size) { return (size + 7) / 8 * 8; }
+  static uint32_t choose(bool first, uint32_t a, uint32_t b) {
+    const uint32_t mask = 0u - static_cast<uint32_t>(first);  // what compilers make no branch of
+    return (a & mask) | (b & ~mask);
+  }
 
   void move(List& l) {
     const auto begin = static_cast<uint32_t>(lines_.size() * kLine);

@@ -1,4 +1,4 @@
-// Sorting of a few numbers, where mispredicted branches are what takes time.
+// Sorting of a few items without branches on what they are, which processors cannot foresee.
 #pragma once
 
 #include <algorithm>
@@ -6,54 +6,62 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <span>
+#include <limits>
 
 namespace reeb {
 
 inline constexpr size_t kFew = 32;
 
+/// `count` rounded up to eights.
+constexpr size_t by_eights(size_t count) { return (count + 7) / 8 * 8; }
+
 namespace detail {
 
-using Four = int32_t __attribute__((vector_size(16)));
-
-/// How many keys are lower than each of the first 4 * `kFours`.
-template <size_t kFours>
-void count_lower(std::span<const int32_t> keys, size_t count, uint32_t* lower) {
-  Four own[kFours];
-  Four counts[kFours] = {};
-  std::memcpy(own, keys.data(), sizeof own);
-  for (size_t i = 0; i < count; ++i) {
+/// How many keys are lower than each.
+template <size_t kCount>
+std::array<uint32_t, kCount> count_lower(const int32_t* keys) {
+  using Four = int32_t __attribute__((vector_size(16)));
+  Four own[kCount / 4];
+  Four counts[kCount / 4] = {};
+  std::memcpy(own, keys, sizeof own);
+  for (size_t i = 0; i < kCount; ++i) {
     const Four other = {keys[i], keys[i], keys[i], keys[i]};
-    for (size_t k = 0; k < kFours; ++k) counts[k] -= other < own[k];
+    for (size_t k = 0; k < kCount / 4; ++k) counts[k] -= other < own[k];
   }
-  std::memcpy(lower, counts, sizeof counts);
+  std::array<uint32_t, kCount> lower;
+  std::memcpy(lower.data(), counts, sizeof counts);
+  return lower;
+}
+
+/// The last kCount - count are no items; they come last, all with as many lower ones.
+template <size_t kCount>
+bool sort_few(const int32_t* keys, uint32_t* items, size_t count) {
+  const std::array<uint32_t, kCount> lower = count_lower<kCount>(keys);
+  std::array<uint32_t, kCount> sorted;
+  std::copy_n(items, kCount, sorted.begin());
+  size_t sum = 0;  // of the places, all of which are taken where no two keys are equal
+  for (size_t i = 0; i < kCount; ++i) {
+    sorted[lower[i]] = items[i];
+    sum += lower[i];
+  }
+  if (2 * sum != count * (count - 1) + 2 * (kCount - count) * count) return false;
+  std::copy_n(sorted.begin(), kCount, items);
+  return true;
 }
 
 }  // namespace detail
 
-/// Sorts `items`, at most kFew, by their keys: each finds its place by counting the lower ones.
-/// False, and nothing is done, where two keys are equal.
-inline bool sort_few(const std::array<int32_t, kFew>& keys, std::span<uint32_t> items) {
-  std::array<uint32_t, kFew> lower;
-  const size_t count = items.size();
-  if (count <= 8) {
-    detail::count_lower<2>(keys, count, lower.data());
-  } else if (count <= 16) {
-    detail::count_lower<4>(keys, count, lower.data());
-  } else if (count <= 24) {
-    detail::count_lower<6>(keys, count, lower.data());
-  } else {
-    detail::count_lower<8>(keys, count, lower.data());
-  }
-  std::array<uint32_t, kFew> sorted;
-  size_t sum = 0;  // of the places, all of which are taken where no two keys are equal
-  for (size_t i = 0; i < count; ++i) {
-    sorted[lower[i]] = items[i];
-    sum += lower[i];
-  }
-  if (2 * sum != count * (count - 1)) return false;
-  std::copy_n(sorted.begin(), count, items.begin());
-  return true;
+/// What stands behind the keys, up to eights. The keys themselves are less.
+inline constexpr int32_t kNoKey = std::numeric_limits<int32_t>::max();
+
+/// Sorts `count` items, at most kFew, by their keys: each finds its place by counting the lower
+/// ones. There is room up to by_eights(count) in both lists; what is there of `items` stays or is
+/// that of another such place. False, and nothing is done, where two keys are equal.
+inline bool sort_few(const int32_t* keys, uint32_t* items, size_t count) {
+  if (count <= 8) return detail::sort_few<8>(keys, items, count);
+  if (count <= 16) return detail::sort_few<16>(keys, items, count);
+  if (count <= 24) return detail::sort_few<24>(keys, items, count);
+  return detail::sort_few<32>(keys, items, count);
 }
 
 }  // namespace reeb
