@@ -101,8 +101,9 @@ struct GroupHeader {
   static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
   static constexpr uint8_t kQuick = 4;      ///< lossless: the method that decodes quicker
   static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
-  static constexpr uint8_t kLoose = 8;      ///< weights may go far from what distances tell
-  uint32_t first_frame = 0;                 ///< in the sequence
+  static constexpr uint8_t kLoose = 8;  ///< main profile: weights may go far from what distances
+                                        ///< tell; fast profile: they are wary
+  uint32_t first_frame = 0;             ///< in the sequence
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;

@@ -116,6 +116,7 @@ struct LaneWeightTask {
   const PredictionGraph::Row* rows = nullptr;
   const float* points = nullptr;        ///< [row][kPointStride]: x, y, z of the reference
   const float* values = nullptr;        ///< of the last block; null where there is none
+  const uint32_t* history = nullptr;    ///< of wary fields, of each row: see LaneBlock
   const float* first_values = nullptr;  ///< of the first one, kFirstLanes a row; null where that is
                                         ///< the last
 };

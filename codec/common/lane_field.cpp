@@ -30,9 +30,10 @@ LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weight
   block_.magnitudes = magnitudes_.data();
 }
 
-LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start)
+LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start, bool wary)
     : LaneField(graph, start.weights) {
   start_ = &start;
+  wary_ = wary;
 }
 
 // Values and magnitudes stay: a row sees but those of rows before it, which are new.
@@ -70,6 +71,7 @@ void LaneField::learn() {
     if (history_[r] >= kLeastHistory * blocks_) badly.push_back(r);
   }
   LaneWeightTask task = {graph_.rows.data(), start_->points.data(), values_.data()};
+  if (wary_) task.history = history_.data();
   if (blocks_ == 1) {
     weights_ = start_->weights;
     block_.weights = weights_.data();

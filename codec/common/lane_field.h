@@ -30,8 +30,9 @@ class LaneField {
   /// `weights`: kMaxNeighbours a row, 0 beyond its neighbours. Graph and weights must outlive the
   /// field.
   LaneField(const PredictionGraph& graph, std::span<const float> weights);
-  /// A field of coefficients, which learns from its first blocks. `start` must outlive it.
-  LaneField(const PredictionGraph& graph, const LaneStart& start);
+  /// A field of coefficients, which learns from its first blocks; where it is `wary`, the less the
+  /// worse a row was predicted. `start` must outlive it.
+  LaneField(const PredictionGraph& graph, const LaneStart& start, bool wary);
 
   LaneField(LaneField&&) = default;
   LaneField(const LaneField&) = delete;  // the block points into its field
@@ -62,6 +63,7 @@ class LaneField {
 
   const PredictionGraph& graph_;
   const LaneStart* start_ = nullptr;  ///< where weights are learned
+  bool wary_ = false;
   Kernels kernels_ = fastest_kernels();
   std::vector<float> steps_;
   std::vector<float> weights_;  ///< once any are learned

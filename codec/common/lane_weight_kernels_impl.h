@@ -100,13 +100,24 @@ inline void learn_points(const LaneWeightTask& task, const LaneRows& rows, Lanes
   for (uint32_t i = 0; i < packed(rows.count, 0); ++i) a[i] *= share;
 }
 
+/// How much a squared difference of one quantization step counts. In a wary field it counts the
+/// less, the worse the row was predicted.
+inline LanesF value_share(const LaneWeightTask& task, const LaneRows& rows) {
+  constexpr float kNoise = 8.0f;
+  constexpr float kWariness = 2.0f;
+  LanesF missed{};
+  for (uint32_t l = 0; l < kTogether && task.history != nullptr; ++l)
+    missed[l] = static_cast<float>(task.history[rows.index[l]]) * 0.0625f;
+  return (LanesF{} + 1.0f) / (kNoise + kWariness * (missed * missed));
+}
+
 /// From eight components.
-inline void learn_values(const LaneRows& rows, const float* values, uint32_t stride, LanesF* a) {
-  constexpr float kShare = 0.125f;  // of a squared difference of one quantization step
+inline void learn_values(const LaneRows& rows, const float* values, uint32_t stride,
+                         const LanesF& share, LanesF* a) {
   LanesF y[kMaxNeighbours][8];
   collect_differences(rows, values, stride, y);
   for (uint32_t i = 0; i < rows.count; ++i) {
-    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] += kShare * dot<8>(y[i], y[j]);
+    for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] += share * dot<8>(y[i], y[j]);
   }
 }
 
@@ -155,9 +166,10 @@ inline void learn_together(const LaneWeightTask& task, const uint32_t* indices, 
   const uint32_t n = rows.count;
   LanesF a[kSystem];
   learn_points(task, rows, a);
-  if (task.first_values != nullptr) learn_values(rows, task.first_values, kFirstLanes, a);
-  if (task.values != nullptr) learn_values(rows, task.values, kRansLanes, a);
-  if (task.first_values != nullptr) learn_values(rows, task.values + 8, kRansLanes, a);
+  const LanesF share = value_share(task, rows);
+  if (task.first_values != nullptr) learn_values(rows, task.first_values, kFirstLanes, share, a);
+  if (task.values != nullptr) learn_values(rows, task.values, kRansLanes, share, a);
+  if (task.first_values != nullptr) learn_values(rows, task.values + 8, kRansLanes, share, a);
   expect(rows, a);
   solve_system<2>(n, a);
   constrain(n, a + packed(n, 0), a + packed(n + 1, 0));

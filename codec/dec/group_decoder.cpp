@@ -39,7 +39,8 @@ Status check_header(const GroupHeader& h) {
   if (h.profile != Profile::kMain && continues) {
     return Status::corrupt("a group continues another in a profile where none does");
   }
-  if (h.loose() && (h.profile != Profile::kMain || continues)) {
+  const bool learns = h.profile == Profile::kMain || h.profile == Profile::kFast;
+  if (h.loose() && (!learns || continues)) {
     return Status::corrupt("a group has loose weights, but does not start to learn any");
   }
   if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
@@ -149,7 +150,7 @@ Status decode_lane_planes(const GroupChunk& chunk, const DecodedSurface& surface
                           const StopToken& stop, std::vector<std::vector<float>>& planes) {
   LaneStart own;  // of a mesh that is not plain
   if (surface.lanes.empty()) own = lane_start(surface.surface, GridPoints(surface.grid));
-  LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own);
+  LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own, chunk.header.loose());
   return coefficient_status(
       decode_lane_field(chunk.coefficients, chunk.header.component_count, field, planes, stop),
       stop);

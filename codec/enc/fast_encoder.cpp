@@ -58,9 +58,10 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
   };
   const PredictionGraph& graph = surface.surface.graph;
   Planes planes = code_twice(
-      graph, [&] { return LaneField(graph, surface.lanes); }, kCoefficientLambda, kMassExponent,
-      code, out.coefficients);
+      graph, [&] { return LaneField(graph, surface.lanes, loose_); }, kCoefficientLambda,
+      kMassExponent, code, out.coefficients);
   out.component_count = static_cast<uint32_t>(planes.size());
+  out.loose = loose_;
   return planes;
 }
 

@@ -324,7 +324,8 @@ Status SequenceEncoder::choose_regions() {
 }
 
 Status SequenceEncoder::choose_looseness() {
-  if (options_.profile != Profile::kMain || !effort_.loose_trial) return {};
+  const bool learns = options_.profile == Profile::kMain || options_.profile == Profile::kFast;
+  if (!learns || !effort_.loose_trial) return {};
   for (auto& shot : shots_) shot->set_loose(true);
   bool kept = false;
   if (Status s = try_setting(kept); !s.ok()) return s;

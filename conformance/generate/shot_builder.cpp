@@ -69,8 +69,8 @@ Bytes code_lanes(LaneField field, uint32_t count, const Residuals& residuals) {
 
 Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
   if (group.header.profile == Profile::kFast) {
-    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes), group.header.component_count,
-                      group.coefficients);
+    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes, group.header.loose()),
+                      group.header.component_count, group.coefficients);
   }
   Field field(mesh.surface.graph, surface_field_options(group.header.profile, group.header.loose()),
               1);

@@ -124,15 +124,15 @@ class LaneWeights:
         for i in range(n):
             spread = sum32(spread, self.M[i][i])
         share = f32(1 / sum32(0.25, product32(2.0 ** -11, f32(spread / max(1, n)))))
-        self.M = [[product32(x, share) for x in entries] for entries in self.M]
+        self.M = self.start = [[product32(x, share) for x in entries] for entries in self.M]
 
-    def observe(self, planes):
+    def observe(self, planes, share):
         """The differences of eight planes."""
         own = [plane[self.index] for plane in planes]
         z = [[sum32(plane[k], -x) for plane, x in zip(planes, own)] for k in self.row.neighbours]
         for i in range(self.n):
             for j in range(i + 1):
-                self.M[i][j] = sum32(self.M[i][j], product32(0.125, dot32(z[i], z[j])))
+                self.M[i][j] = sum32(self.M[i][j], product32(share, dot32(z[i], z[j])))
 
     def solve(self):
         A = [list(entries) for entries in self.M]
@@ -191,7 +191,8 @@ def constrain32(w, b):
 class LaneField:
     """Section 3. weights, steps: of every row; learners: LaneWeights of every row, or None where the weights are kept."""
 
-    def __init__(self, data, rows, planes, weights, steps, learners=None):
+    def __init__(self, data, rows, planes, weights, steps, learners=None, wary=False):
+        self.wary = wary
         self.section = LaneSection(data, min(16, planes))
         self.rows = rows
         self.weights = weights
@@ -207,10 +208,18 @@ class LaneField:
 
     def learn(self, learners, block):
         for r, learner in enumerate(learners):
-            for first in (0,) if block == 1 else (8, 16):
-                learner.observe(self.planes[first:first + 8])
-            if self.history[r] >= 4 * block:
-                self.weights[r] = learner.solve()
+            if self.history[r] < 4 * block:
+                continue
+            learner.M = [list(entries) for entries in learner.start]
+            for first in (0,) if block == 1 else (0, 8, 16):
+                learner.observe(self.planes[first:first + 8], self.share(r))
+            self.weights[r] = learner.solve()
+
+    def share(self, r):
+        if not self.wary:
+            return 0.125
+        h = product32(float(self.history[r]), 0.0625)
+        return f32(1 / sum32(8.0, product32(2.0, product32(h, h))))
 
     def decode_block(self, block, first, lanes):
         self.magnitude = [[0] * lanes for _ in self.rows]
@@ -404,11 +413,11 @@ def build_fast_graph(grid, order):
     return rows, order.order
 
 
-def decode_coefficients(data, rows, components, positions):
+def decode_coefficients(data, rows, components, positions, wary):
     learners = [LaneWeights(rows, r, positions) for r in range(len(rows))]
     weights = [learner.solve() for learner in learners]
     steps = [STEPS[row.step_level] for row in rows]
-    return LaneField(data, rows, components, weights, steps, learners).planes
+    return LaneField(data, rows, components, weights, steps, learners, wary).planes
 
 
 def decode_basis(data, rows, components):

@@ -39,7 +39,7 @@ def check_group(group):
         fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
-    may_be_loose = group.profile == MAIN and not group.flags & CONTINUES
+    may_be_loose = group.profile in (MAIN, FAST) and not group.flags & CONTINUES
     require(may_be_loose or group.profile == LOSSLESS or not group.flags & LOOSE, "loose weights where none start")
     unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
@@ -78,7 +78,8 @@ class DecodedGroup:
 
     def decode_coefficients(self, group, shot, before):
         if group.profile == FAST:
-            return fast.decode_coefficients(group.coefficients, shot.rows, group.component_count, shot.positions)
+            wary = group.flags & LOOSE != 0
+            return fast.decode_coefficients(group.coefficients, shot.rows, group.component_count, shot.positions, wary)
         options = LOOSE_COEFFICIENTS if group.flags & LOOSE else COEFFICIENTS[group.profile]
         self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
                                          options, shot.positions, before and before.coefficients)

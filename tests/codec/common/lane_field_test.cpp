@@ -58,8 +58,8 @@ TEST_CASE("a lane field decodes to what its encoder had", "[lane_field]") {
   const LaneStart start = torus_start(surface);
   for (const uint32_t count : {1u, 7u, 8u, 9u, 24u, 25u, 40u}) {
     const LaneField::Planes targets = smooth_planes(surface, count);
-    const Coded coded = encode(surface.graph, LaneField(surface.graph, start), targets, 0.1);
-    LaneField field(surface.graph, start);
+    const Coded coded = encode(surface.graph, LaneField(surface.graph, start, false), targets, 0.1);
+    LaneField field(surface.graph, start, false);
     LaneField::Planes planes;
     REQUIRE(decode_lane_field(coded.section, count, field, planes));
     CHECK(planes == coded.planes);
