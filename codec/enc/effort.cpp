@@ -7,9 +7,11 @@ namespace reeb {
 namespace {
 
 constexpr EffortPreset kPresets[kMostEffort] = {
-    {0.0, 0, 4, 0, false, false}, {0.0, 0, 5, 0, true, false}, {0.3, 1, 6, 0, true, false},
-    {0.5, 1, 7, 0, true, false},  {0.5, 2, 7, 0, true, false}, {0.5, 2, 7, 2, true, false},
-    {0.5, 3, 8, 4, true, false},  {0.5, 3, 8, 8, true, false}, {0.5, 4, 8, 12, true, true},
+    {0.0, 0, 4, 0, kMetTolerance, false, false}, {0.0, 0, 5, 0, kMetTolerance, true, false},
+    {0.1, 1, 6, 0, kMetTolerance, true, false},  {0.2, 1, 6, 0, kMetTolerance, true, false},
+    {0.5, 1, 7, 0, kMetTolerance, true, false},  {0.5, 1, 7, 1, 0.005, true, false},
+    {0.5, 2, 8, 3, 0.004, true, false},          {0.5, 2, 8, 8, 0.003, true, false},
+    {0.5, 3, 8, 16, 0.003, true, true},
 };
 
 }  // namespace

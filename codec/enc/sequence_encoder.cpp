@@ -18,7 +18,6 @@ constexpr double kGuessedPrecision =
 constexpr double kAnyStep = 1e-6;  ///< where nothing moves
 constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
 constexpr double kNear = 0.1;           ///< of the target, where settings are compared
-constexpr double kTolerance = 0.0095;
 // What an error measured in coefficients may fall short of the one of rounded positions; where that
 // does not do, a second search measures positions.
 constexpr double kRounding = 1.0005;
@@ -153,16 +152,16 @@ Status SequenceEncoder::finish_search() {
   // As many components as pay at the step that is likely to be the last; with their number the
   // error would jump by more than the tolerance.
   hold_components(false);
-  if (Status s = search(0, kTolerance, 1); !s.ok()) return s;
+  if (Status s = search(0, effort_.tolerance, 1); !s.ok()) return s;
   hold_components(true);
-  if (Status s = search(0, kTolerance, kTrials); !s.ok()) return s;
+  if (Status s = search(0, effort_.tolerance, kTrials); !s.ok()) return s;
   if (meets(best_)) return polish();
   hold_components(false);
-  return search(0, kTolerance, kTrials);
+  return search(0, effort_.tolerance, kTrials);
 }
 
 bool SequenceEncoder::meets(const Attempt& a) const {
-  return a.excess <= 0 && a.excess >= -kTolerance;
+  return a.excess <= 0 && a.excess >= -kMetTolerance;
 }
 
 // Rate and error do not follow the step smoothly: of steps next to each other one is the best.
