@@ -221,8 +221,9 @@ class Collapser {
   }
 
   // What follows goes without branches on what the mesh looks like: they are hard to foresee.
+  static uint32_t same(uint32_t a, uint32_t b) { return a == b ? 1 : 0; }
   static bool has(const Triangle& t, uint32_t v) {
-    return ((t[0] == v) | (t[1] == v) | (t[2] == v)) != 0;
+    return (same(t[0], v) | same(t[1], v) | same(t[2], v)) != 0;
   }
 
   /// Leaves in far_ the neighbours of `from`, at most kMostFrom, that are not marked, and marks
@@ -262,7 +263,7 @@ class Collapser {
     move_faces(v, target);
     mark(neighbours_.by_eights(target));
     for (const uint32_t w : near()) {
-      const bool erases = ((w == target) | marked(w)) != 0;
+      const bool erases = (same(w, target) | same(seen_[w], stamp_)) != 0;
       neighbours_.replace_or_erase(w, v, target, erases);
       neighbours_.push_back_if(!erases, target, w);
       const uint32_t added = erases ? 0 : points_.distance_q4(w, target);
@@ -280,14 +281,14 @@ class Collapser {
     size_t moved_count = 0, gone_count = 0;
     for (const uint32_t f : faces) {
       Triangle& t = triangles_[f];
-      const bool keeps = !has(t, target);
+      const uint32_t keeps = has(t, target) ? 0 : 1;
       for (uint32_t& corner : t) {
-        const bool moves = keeps & (corner == v);
-        corner ^= (corner ^ target) & (0u - static_cast<uint32_t>(moves));
+        const uint32_t moves = keeps & same(corner, v);
+        corner ^= (corner ^ target) & (0u - moves);
       }
       moved[moved_count] = gone[gone_count] = f;
-      moved_count += keeps ? 1 : 0;
-      gone_count += keeps ? 0 : 1;
+      moved_count += keeps;
+      gone_count += 1 - keeps;
     }
     for (size_t i = 0; i < moved_count; ++i) faces_.push_back(target, moved[i]);
     for (size_t i = 0; i < gone_count; ++i) {
