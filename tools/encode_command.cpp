@@ -232,9 +232,8 @@ void add_coding_options(CLI::App& command, Options& o) {
               throw CLI::ValidationError("--regions", "'" + text + "' is neither auto nor >= 0");
             }
           },
-          "Regions of the motion model, 0 = none; default auto (by rate and distortion; in the "
-          "main "
-          "profile, where it rarely pays, tried at effort 9 only)")
+          "Regions of the motion model, 0 = none; default auto (by rate and distortion; where it "
+          "rarely pays, in the main profile or on a mesh in one piece, tried at effort 9 only)")
       ->excludes("--lossless")
       ->type_name("N")
       ->group(group);

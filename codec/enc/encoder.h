@@ -35,8 +35,9 @@ struct EncodeOptions {
   bool reorder = false;  ///< drop the vertex order of the input (saves bits)
   Profile profile = Profile::kMain;
   int effort = kDefaultEffort;  ///< 1 (quickest) .. 9 (smallest): encoding time traded for rate
-  int regions =
-      -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, 0 = none
+  int regions = -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, where
+                     ///< trials are worth their time (up to effort 8: fast profile, a mesh in
+                     ///< several pieces); 0 = none
   unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it
   /// Called with the done part in [0,1]; return false to cancel. May be empty.
   std::function<bool(double)> progress;

@@ -33,6 +33,7 @@ constexpr double kBaseRatio = 1.35;     ///< between the steps tried under corre
 constexpr double kErrorPerBit = 0.14;
 constexpr size_t kShort = 64;  ///< frames of a shot whose reference mesh may take longer to decode
 constexpr double kSlowMeshShare = 0.6;  ///< of the size, where that pays
+constexpr double kWholeSurface = 0.9;   ///< of the vertices in one piece
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
@@ -307,9 +308,15 @@ Status SequenceEncoder::choose_meshes() {
   return {};
 }
 
+// Where neighbours tell a vertex' motion, the weights learn it. The motion model pays where pieces
+// move that have few neighbours each: with one connected surface, finding regions is not worth the
+// time, which is most of the encoder's.
 Status SequenceEncoder::choose_regions() {
   if (options_.regions >= 0 || options_.profile == Profile::kThesis) return {};
-  if (options_.profile == Profile::kMain && !effort_.region_trials) return {};
+  const bool whole = std::all_of(shots_.begin(), shots_.end(), [](const auto& shot) {
+    return shot->largest_piece() > kWholeSurface;
+  });
+  if (!effort_.region_trials && (options_.profile == Profile::kMain || whole)) return {};
   uint32_t chosen = 0;
   for (const uint32_t candidate : kRegionCandidates) {
     set_regions(candidate);

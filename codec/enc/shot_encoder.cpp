@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "segmentation/segmentation.h"
@@ -117,6 +118,22 @@ Status ShotEncoder::set_plain(bool plain) {
   plain_ = plain;
   spare_bits_ = 0;
   return set_grid_bits(std::exchange(grid_bits_, 0));
+}
+
+double ShotEncoder::largest_piece() const {
+  std::vector<uint32_t> parent(surface_.mesh.vertex_count);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  const std::vector<uint32_t>& triangles = surface_.mesh.triangles;
+  for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    for (const size_t j : {i + 1, i + 2}) parent[root(triangles[j])] = root(triangles[i]);
+  }
+  std::vector<uint32_t> size(parent.size());
+  for (uint32_t v = 0; v < parent.size(); ++v) ++size[root(v)];
+  return *std::max_element(size.begin(), size.end()) / static_cast<double>(size.size());
 }
 
 void ShotEncoder::segment_reference() {

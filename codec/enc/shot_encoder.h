@@ -34,6 +34,9 @@ class ShotEncoder {
   /// Fast profile: whether the reference mesh is plain, which it is at first.
   Status set_plain(bool plain);
 
+  /// The share of the vertices in the largest connected piece of the mesh.
+  double largest_piece() const;
+
   /// Gives the motion model `count` regions, or as many as the shape allows; 0 for none.
   void set_regions(uint32_t count);
   /// Gives the motion model the regions of the Reeb graph as they are.
