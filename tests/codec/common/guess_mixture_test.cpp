@@ -72,8 +72,8 @@ TEST_CASE("a range of one value costs nothing", "[guess_mixture]") {
 
 TEST_CASE("good guesses approach the entropy of their error", "[guess_mixture]") {
   std::mt19937 random(4);
-  std::vector<uint32_t> values;
-  for (int i = 0; i < 8000; ++i) values.push_back(500 + static_cast<uint32_t>(random() % 4));
+  std::vector<uint32_t> values(8000);
+  for (uint32_t& value : values) value = 500 + static_cast<uint32_t>(random() % 4);
   const double bits = 8.0 * static_cast<double>(coded_size(values)) / 8000;
   CHECK(bits < 2.0 * 1.03);  // log2(4) bits each
   CHECK(bits > 2.0);
