@@ -49,11 +49,11 @@ void prefetch(const Row& row) {
 }
 
 std::vector<uint32_t> rows_by_count(const PredictionGraph& graph) {
+  std::array<uint32_t, kMaxNeighbours + 2> begin{};
+  for (const PredictionGraph::Row& row : graph.rows) ++begin[row.count + 1u];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<uint32_t> rows(graph.size());
-  std::iota(rows.begin(), rows.end(), 0u);
-  std::stable_sort(rows.begin(), rows.end(), [&](uint32_t a, uint32_t b) {
-    return graph.rows[a].count < graph.rows[b].count;
-  });
+  for (uint32_t r = 0; r < graph.size(); ++r) rows[begin[graph.rows[r].count]++] = r;
   return rows;
 }
 

@@ -1,5 +1,5 @@
 // Prediction weights that learn while decoding: for every row of a field, ridge least squares over
-// everything decoded so far (the reference positions and all earlier components), re-solved where
+// what is decoded so far (the reference positions and earlier components), re-solved where
 // predictions failed.
 #pragma once
 
@@ -26,8 +26,8 @@ struct WeightOptions {
 /// to binary32.
 ///
 /// A row that its weights have predicted without error keeps them: what it has observed since
-/// agrees with them, so that they are the minimum still. A component in which a row erred is a
-/// *miss* of its weights.
+/// agrees with them, so that they are the minimum still, and need not be learned from. A component
+/// in which a row erred is a *miss* of its weights.
 class WeightEstimator {
  public:
   /// `graph` must outlive the estimator. `threads` >= 1; the weights do not depend on it.
@@ -51,7 +51,8 @@ class WeightEstimator {
     if (misses_[row] < kNeverSolved) ++misses_[row];
   }
 
-  /// Learns from the component, whose residuals had the given variance.
+  /// Puts the component, whose residuals had the given variance, on the list of what rows learn
+  /// from when they are solved for, or when it is full and they missed.
   void finish_component(double noise) { scale_[observations_++] = 1.0 / std::sqrt(noise); }
 
   /// Lets all that is observed count `factor` times as much; all rows count as never solved
