@@ -167,6 +167,17 @@ std::vector<Shape> small_shapes() {
           with_duplicates(), mixed_polygons(), points_only(30)};
 }
 
+std::vector<uint32_t> grid_triangles(uint32_t n) {
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i + 1 < n; ++i) {
+    for (uint32_t j = 0; j + 1 < n; ++j) {
+      const uint32_t a = i * n + j;
+      out.insert(out.end(), {a, a + 1, a + n, a + n, a + 1, a + n + 1});
+    }
+  }
+  return out;
+}
+
 std::vector<uint32_t> triangles_of(const Connectivity& connectivity) {
   std::vector<uint32_t> out;
   size_t first = 0;

@@ -35,6 +35,9 @@ Shape points_only(uint32_t count);  ///< no faces
 /// All of the above at a small size.
 std::vector<Shape> small_shapes();
 
+/// Triangles of an n by n grid of points, by rows.
+std::vector<uint32_t> grid_triangles(uint32_t n);
+
 /// Every face as a fan, degenerate triangles left out.
 std::vector<uint32_t> triangles_of(const Connectivity& connectivity);
 

@@ -7,6 +7,7 @@
 #include "tests/codec/shapes.h"
 
 using namespace reeb;
+using namespace reeb::test;
 using List = std::vector<uint32_t>;
 
 namespace {
@@ -17,18 +18,6 @@ List strip_triangles(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     if (i % 2 == 0) out.insert(out.end(), {i, i + 1, i + 2});
     if (i % 2 == 1) out.insert(out.end(), {i + 1, i, i + 2});
-  }
-  return out;
-}
-
-// Triangles of an n by n grid of points.
-List grid_triangles(uint32_t n) {
-  List out;
-  for (uint32_t i = 0; i + 1 < n; ++i) {
-    for (uint32_t j = 0; j + 1 < n; ++j) {
-      const uint32_t a = i * n + j;
-      out.insert(out.end(), {a, a + 1, a + n, a + n, a + 1, a + n + 1});
-    }
   }
   return out;
 }

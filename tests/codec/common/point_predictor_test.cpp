@@ -4,23 +4,13 @@
 #include <cmath>
 
 #include "entropy/interval_coder.h"
+#include "tests/codec/shapes.h"
 
 using namespace reeb;
+using namespace reeb::test;
 using List = std::vector<uint32_t>;
 
 namespace {
-
-// Triangles of an n by n grid of vertices.
-List grid_triangles(uint32_t n) {
-  List out;
-  for (uint32_t i = 0; i + 1 < n; ++i) {
-    for (uint32_t j = 0; j + 1 < n; ++j) {
-      const uint32_t a = i * n + j;
-      out.insert(out.end(), {a, a + 1, a + n, a + n, a + 1, a + n + 1});
-    }
-  }
-  return out;
-}
 
 // Bits per vertex of a height field over the grid.
 template <class Height>
