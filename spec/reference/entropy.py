@@ -7,55 +7,16 @@ from .errors import require
 EVEN = 32768
 
 
-class RangeDecoder:
-    """Section 1."""
+class CodeReader:
+    """What both range decoders are: `size` bytes of code."""
 
-    def __init__(self, data):
+    def __init__(self, data, size):
         self.data = data
+        self.size = size
         self.position = 0
         self.code = 0
-        self.range = 0xFFFFFFFF
-        for _ in range(4):
-            self.code = self.code * 256 + self.next_byte()
-
-    def next_byte(self):
-        self.position += 1
-        return self.data[self.position - 1] if self.position <= len(self.data) else 0
-
-    def decode(self, p1):
-        bound = (self.range * p1) >> 16
-        if self.code < bound:
-            bit = 1
-            self.range = bound
-        else:
-            bit = 0
-            self.code -= bound
-            self.range -= bound
-        while self.range < 1 << 24:
-            self.code = (self.code * 256 + self.next_byte()) % (1 << 32)
-            self.range *= 256
-        return bit
-
-    def decode_bits(self, count):
-        v = 0
-        for _ in range(count):
-            v = 2 * v + self.decode(EVEN)
-        return v
-
-    def check(self):
-        """Called wherever a section may be refused, and at its end."""
-        require(self.position <= len(self.data) + 4, "a section is read past its end")
-
-
-class IntervalDecoder:
-    """Section 5."""
-
-    def __init__(self, data):
-        self.data = data
-        self.position = 0
-        self.code = 0
-        self.range = (1 << 64) - 1
-        for _ in range(8):
+        self.range = (1 << 8 * size) - 1
+        for _ in range(size):
             self.code = self.code * 256 + self.next_byte()
 
     def next_byte(self):
@@ -63,12 +24,11 @@ class IntervalDecoder:
         return self.data[self.position - 1] if self.position <= len(self.data) else 0
 
     def shift(self):
-        while self.range < 1 << 56:
-            self.code = (self.code * 256 + self.next_byte()) % (1 << 64)
+        while self.range < 1 << 8 * (self.size - 1):
+            self.code = (self.code * 256 + self.next_byte()) % (1 << 8 * self.size)
             self.range *= 256
 
-    def decode(self, p1):
-        bound = (self.range >> 16) * p1
+    def decode_below(self, bound):
         if self.code < bound:
             bit = 1
             self.range = bound
@@ -78,6 +38,36 @@ class IntervalDecoder:
             self.range -= bound
         self.shift()
         return bit
+
+    def check(self):
+        """Called wherever a section may be refused, and at its end."""
+        require(self.position <= len(self.data) + self.size, "a section is read past its end")
+
+
+class RangeDecoder(CodeReader):
+    """Section 1."""
+
+    def __init__(self, data):
+        super().__init__(data, 4)
+
+    def decode(self, p1):
+        return self.decode_below((self.range * p1) >> 16)
+
+    def decode_bits(self, count):
+        v = 0
+        for _ in range(count):
+            v = 2 * v + self.decode(EVEN)
+        return v
+
+
+class IntervalDecoder(CodeReader):
+    """Section 5."""
+
+    def __init__(self, data):
+        super().__init__(data, 8)
+
+    def decode(self, p1):
+        return self.decode_below((self.range >> 16) * p1)
 
     def decode_interval(self, whole, find):
         """What find(place) gives: (integer, below, size)."""
@@ -87,10 +77,6 @@ class IntervalDecoder:
         self.range = self.range - unit * below if below + size == whole else unit * size
         self.shift()
         return integer
-
-    def check(self):
-        """Called wherever a section may be refused, and at its end."""
-        require(self.position <= len(self.data) + 8, "a section is read past its end")
 
 
 class AdaptiveBit:
