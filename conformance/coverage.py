@@ -19,7 +19,7 @@ UNITS = ("entropy/", "bitstream/", "codec/common/", "codec/dec/")
 INTERFACE = {
     "bitstream/byte_source.h": "files behind a callback",
     "bitstream/container_reader.cpp": "chunks read again when they are needed",
-    "codec/common/stop.h": "cancelling",
+    "codec/common/base/stop.h": "cancelling",
     "codec/dec/decode_options.h": "what a caller may choose",
     "codec/dec/decode_sequence.cpp": "a whole sequence into memory",
     "codec/dec/decoder.cpp": "frames by number and time, pushed bytes, playing ahead, figures",
@@ -35,8 +35,8 @@ INTERFACE = {
     "codec/dec/stream_info.cpp": "what a stream holds, told to callers",
     "codec/dec/stream_info.h": "the same",
 }
-OTHER_FILES = ("bitstream/trace.cpp", "bitstream/container_writer.cpp", "codec/common/sequence.h", "codec/common/faces.cpp",
-               "codec/common/coding_tools.h")
+OTHER_FILES = ("bitstream/trace.cpp", "bitstream/container_writer.cpp", "codec/common/base/sequence.h", "codec/common/mesh/faces.cpp",
+               "codec/common/base/coding_tools.h")
 OTHERS = re.compile(
     r"reeb::(append_|write_|SyntaxWriter::|BinaryEncoder::|RansEncoder::|RawBitWriter::|rans_frequencies|Status::(io|invalid)\b|"
     r"MagnitudeModel::representable|ComponentSum::basis|WeightEstimator::WeightEstimator\(reeb::WeightEstimator const|"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "codec/common/faces.h"
+#include "codec/common/mesh/faces.h"
 #include "tools/text.h"
 
 namespace reeb::tools {

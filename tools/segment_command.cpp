@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "codec/common/faces.h"
+#include "codec/common/mesh/faces.h"
 #include "segmentation/motion.h"
 #include "segmentation/skeleton.h"
 #include "tools/command.h"

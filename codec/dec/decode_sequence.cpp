@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "codec/common/parallel.h"
+#include "codec/common/base/parallel.h"
 #include "codec/dec/decoder.h"
 #include "codec/dec/group_memory.h"
 #include "codec/dec/group_store.h"

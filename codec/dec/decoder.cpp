@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bitstream/container_parser.h"
-#include "codec/common/faces.h"
+#include "codec/common/mesh/faces.h"
 #include "codec/dec/group_store.h"
 #include "codec/dec/guard.h"
 #include "codec/dec/normals.h"

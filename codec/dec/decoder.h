@@ -8,7 +8,7 @@
 
 #include "bitstream/byte_source.h"
 #include "bitstream/status.h"
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "codec/dec/decode_options.h"
 #include "codec/dec/stream_info.h"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "codec/common/correction_field.h"
-#include "codec/common/lane_field.h"
-#include "codec/common/largest_magnitude.h"
-#include "codec/common/motion_syntax.h"
+#include "codec/common/base/largest_magnitude.h"
+#include "codec/common/fast/lane_field.h"
+#include "codec/common/motion/motion_syntax.h"
+#include "codec/common/synthesis/correction_field.h"
 #include "codec/dec/lossless_decoder.h"
 
 namespace reeb {

@@ -7,11 +7,11 @@
 
 #include "bitstream/container.h"
 #include "bitstream/status.h"
-#include "codec/common/group_state.h"
-#include "codec/common/lane_weights.h"
-#include "codec/common/prediction_graph.h"
-#include "codec/common/stop.h"
-#include "codec/common/synthesis.h"
+#include "codec/common/base/stop.h"
+#include "codec/common/fast/lane_weights.h"
+#include "codec/common/fields/group_state.h"
+#include "codec/common/prediction/prediction_graph.h"
+#include "codec/common/synthesis/synthesis.h"
 
 namespace reeb {
 

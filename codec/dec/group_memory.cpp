@@ -1,9 +1,9 @@
 #include "codec/dec/group_memory.h"
 
-#include "codec/common/correction_field.h"
-#include "codec/common/field.h"
-#include "codec/common/kernels.h"
-#include "codec/common/motion_model.h"
+#include "codec/common/fields/field.h"
+#include "codec/common/motion/motion_model.h"
+#include "codec/common/simd/kernels.h"
+#include "codec/common/synthesis/correction_field.h"
 #include "codec/dec/draco_connectivity.h"
 
 namespace reeb {

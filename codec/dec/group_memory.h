@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "bitstream/container.h"
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "codec/dec/group_decoder.h"
 
 namespace reeb {

@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "codec/common/parallel.h"
+#include "codec/common/base/parallel.h"
 #include "codec/dec/group_memory.h"
 #include "codec/dec/guard.h"
 #include "codec/dec/reference_decoder.h"

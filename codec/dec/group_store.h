@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "bitstream/container.h"
-#include "codec/common/sequence.h"
-#include "codec/common/stop.h"
+#include "codec/common/base/sequence.h"
+#include "codec/common/base/stop.h"
 #include "codec/dec/decode_options.h"
 #include "codec/dec/group_decoder.h"
 #include "codec/dec/memory_account.h"

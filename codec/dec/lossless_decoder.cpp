@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "codec/common/lossless_syntax.h"
-#include "codec/common/surface_start.h"
+#include "codec/common/lossless/lossless_syntax.h"
+#include "codec/common/lossless/surface_start.h"
 #include "entropy/range_coder.h"
 #include "entropy/raw_bits.h"
 

@@ -1,7 +1,7 @@
 // Decoder of one lossless group.
 #pragma once
 
-#include "codec/common/exact_frames.h"
+#include "codec/common/synthesis/exact_frames.h"
 #include "codec/dec/group_decoder.h"
 
 namespace reeb {

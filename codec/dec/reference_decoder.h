@@ -6,7 +6,7 @@
 
 #include "bitstream/limits.h"
 #include "bitstream/status.h"
-#include "codec/common/reference_mesh.h"
+#include "codec/common/reference/reference_mesh.h"
 
 namespace reeb {
 

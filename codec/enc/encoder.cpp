@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "codec/enc/lossless_sequence.h"
-#include "codec/enc/sequence_encoder.h"
-#include "codec/enc/snapped_sequence.h"
+#include "codec/enc/lossless/lossless_sequence.h"
+#include "codec/enc/search/sequence_encoder.h"
+#include "codec/enc/search/snapped_sequence.h"
 
 namespace reeb {
 

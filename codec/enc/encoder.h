@@ -8,7 +8,7 @@
 
 #include "bitstream/headers.h"
 #include "bitstream/status.h"
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 
 namespace reeb {
 

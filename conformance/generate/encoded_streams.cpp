@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "codec/enc/encoder.h"
-#include "codec/enc/stream_encoder.h"
+#include "codec/enc/lossless/stream_encoder.h"
 #include "conformance/generate/stream.h"
 #include "tests/codec/shapes.h"
 

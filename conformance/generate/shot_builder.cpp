@@ -8,11 +8,11 @@
 
 #include "bitstream/chunk.h"
 #include "bitstream/syntax.h"
-#include "codec/common/correction_field.h"
-#include "codec/common/lane_field.h"
-#include "codec/common/motion_syntax.h"
-#include "codec/common/position_syntax.h"
-#include "codec/common/reference_syntax.h"
+#include "codec/common/fast/lane_field.h"
+#include "codec/common/motion/motion_syntax.h"
+#include "codec/common/reference/position_syntax.h"
+#include "codec/common/reference/reference_syntax.h"
+#include "codec/common/synthesis/correction_field.h"
 #include "codec/dec/reference_decoder.h"
 #include "entropy/range_coder.h"
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "bitstream/container.h"
-#include "codec/common/corrections.h"
-#include "codec/common/field.h"
-#include "codec/common/lane_weights.h"
-#include "codec/common/motion_model.h"
-#include "codec/common/prediction_graph.h"
-#include "codec/common/sequence.h"
-#include "codec/enc/reference_encoder.h"
+#include "codec/common/base/sequence.h"
+#include "codec/common/fast/lane_weights.h"
+#include "codec/common/fields/field.h"
+#include "codec/common/motion/motion_model.h"
+#include "codec/common/prediction/prediction_graph.h"
+#include "codec/common/synthesis/corrections.h"
+#include "codec/enc/reference/reference_encoder.h"
 #include "conformance/generate/stream.h"
 
 namespace reeb::conformance {

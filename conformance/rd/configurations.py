@@ -4,7 +4,7 @@ import dataclasses
 KG_TARGETS = ("1", "0.5", "0.2", "0.1", "0.05", "0.02")
 ABLATION_TARGETS = ("0.5", "0.1", "0.02")
 
-# Coding tools that a build can leave out (codec/common/coding_tools.h), with words for people.
+# Coding tools that a build can leave out (codec/common/base/coding_tools.h), with words for people.
 TOOLS = {
     "extra-neighbours": "extra neighbours (ring only)",
     "re-estimation": "re-estimation of the weights",

@@ -12,7 +12,7 @@
 
 #include <span>
 
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 
 namespace reeb::conformance {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "codec/common/kernels.h"
+#include "codec/common/simd/kernels.h"
 
 namespace reeb {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "codec/enc/stream_encoder.h"
+#include "codec/enc/lossless/stream_encoder.h"
 #include "tests/codec/round_trip.h"
 #include "tests/codec/shapes.h"
 

@@ -8,7 +8,7 @@
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/dec/reference_decoder.h"
-#include "codec/enc/reference_encoder.h"
+#include "codec/enc/reference/reference_encoder.h"
 
 using namespace reeb;
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "codec/common/prediction_graph.h"
+#include "codec/common/prediction/prediction_graph.h"
 #include "codec/dec/reference_decoder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 
 namespace reeb::tools {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bitstream/status.h"
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "codec/dec/decoder.h"
 
 namespace reeb::tools {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "tools/picture/image.h"
 #include "tools/picture/render.h"
 

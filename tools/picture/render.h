@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 #include "tools/picture/image.h"
 #include "tools/vec3.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bitstream/status.h"
-#include "codec/common/sequence.h"
+#include "codec/common/base/sequence.h"
 
 namespace reeb::tools {
 

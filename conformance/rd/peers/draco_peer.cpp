@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "codec/enc/draco_connectivity_encoder.h"
+#include "codec/enc/reference/draco_connectivity_encoder.h"
 #include "conformance/rd/peers/peer.h"
 
 namespace reeb::conformance {

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <optional>
 
-#include "codec/enc/draco_connectivity_encoder.h"
+#include "codec/enc/reference/draco_connectivity_encoder.h"
 #include "conformance/rd/peers/pca_coder.h"
 #include "conformance/rd/peers/peer.h"
 

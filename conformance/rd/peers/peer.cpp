@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "codec/common/faces.h"
+#include "codec/common/mesh/faces.h"
 #include "tools/io/read_sequence.h"
 
 namespace reeb::conformance {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "codec/common/half_edge_fans.h"
+#include "codec/common/mesh/half_edge_fans.h"
 
 namespace reeb::conformance {
 namespace {

@@ -1,0 +1,28 @@
+// Weights that predict the coefficients of the fast profile: found from the reference mesh, then,
+// for the rows that need it, once more from the first blocks of components.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/common/mesh/grid.h"
+#include "codec/common/prediction/prediction_graph.h"
+#include "codec/common/simd/kernels.h"
+
+namespace reeb {
+
+/// What the fields of all groups on a reference mesh start from.
+struct LaneStart {
+  std::vector<float> points;   ///< kPointStride a row: its vertex on the grid; padded at the end
+  std::vector<float> weights;  ///< kMaxNeighbours a row; 0 for padding
+
+  bool empty() const { return weights.empty(); }
+};
+LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points);
+
+/// Finds the weights of `rows` anew; see LaneWeightTask.
+void learn_weights(const LaneWeightTask& task, std::span<const uint32_t> rows,
+                   std::vector<float>& weights);
+
+}  // namespace reeb

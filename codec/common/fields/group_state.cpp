@@ -1,0 +1,15 @@
+#include "codec/common/fields/group_state.h"
+
+namespace reeb {
+
+GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
+                              Profile profile, bool loose, unsigned threads) {
+  GroupState state;
+  state.profile = profile;
+  state.coefficients =
+      std::make_unique<Field>(surface.graph, surface_field_options(profile, loose), threads);
+  state.coefficients->learn_reference(points, surface.order);
+  return state;
+}
+
+}  // namespace reeb

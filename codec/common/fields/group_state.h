@@ -1,0 +1,24 @@
+// What a group has learned, for the next one to continue.
+#pragma once
+
+#include <memory>
+
+#include "bitstream/headers.h"
+#include "codec/common/fields/field.h"
+#include "codec/common/prediction/prediction_graph.h"
+
+namespace reeb {
+
+/// Empty before the first group and where the last one has nothing to hand on. The weights of the
+/// basis are no part of it: what one stretch of time teaches about its basis misleads the next.
+struct GroupState {
+  Profile profile = Profile::kMain;
+  std::unique_ptr<Field> coefficients;  ///< refers to the surface graph it was started on
+  MagnitudeModel basis_contexts;
+};
+
+/// State of a group that starts from the reference mesh alone; `loose` as in its header.
+GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
+                              Profile profile, bool loose, unsigned threads);
+
+}  // namespace reeb

@@ -1,0 +1,47 @@
+#include "codec/common/mesh/shared_places.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace reeb {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+/// Places of the table that are looked at; a point that finds no room passes for a shared one, as
+/// do all that lie where it does. No mesh can make this slow.
+constexpr uint32_t kMostTries = 32;
+
+uint32_t hash(const int32_t* xyz) {
+  const uint64_t place = static_cast<uint64_t>(xyz[0]) << 32 | static_cast<uint64_t>(xyz[1]) << 16 |
+                         static_cast<uint64_t>(xyz[2]);
+  return static_cast<uint32_t>(place * 0x9E3779B97F4A7C15 >> 32);
+}
+
+}  // namespace
+
+std::vector<uint8_t> shared_places(std::span<const int32_t> grid) {
+  const size_t count = grid.size() / 3;
+  const size_t mask = std::bit_ceil(2 * count + 1) - 1;
+  std::vector<uint32_t> point_at(mask + 1, kNone);
+  std::vector<uint8_t> shared(count);
+  for (uint32_t p = 0; p < count; ++p) {
+    const int32_t* const xyz = &grid[size_t{p} * 3];
+    size_t at = hash(xyz) & mask;
+    shared[p] = 1;
+    for (uint32_t tries = 0; tries < kMostTries; ++tries, at = (at + 1) & mask) {
+      const uint32_t other = point_at[at];
+      if (other == kNone) {
+        point_at[at] = p;
+        shared[p] = 0;
+        break;
+      }
+      if (!std::equal(xyz, xyz + 3, &grid[size_t{other} * 3])) continue;
+      shared[other] = 1;
+      break;
+    }
+  }
+  return shared;
+}
+
+}  // namespace reeb

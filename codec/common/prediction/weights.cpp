@@ -1,0 +1,182 @@
+#include "codec/common/prediction/weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "codec/common/base/parallel.h"
+
+namespace reeb {
+
+namespace {
+
+/// The positions are exact to half a grid unit and to the surface's bending.
+void observe_rows(const PredictionGraph& graph, const GridPoints& points,
+                  const std::vector<uint32_t>& order, const uint32_t rows[kLanes],
+                  const Kernels& kernels, BatchVector<RowEquations>& equations) {
+  constexpr double kGridVariance = 0.25;  // of half a grid unit
+  constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
+  PointDifferences y{};
+  RowEquations* out[kLanes];
+  uint32_t most = 0;
+  for (uint32_t lane = 0; lane < kLanes; ++lane) {
+    const uint32_t r = rows[lane];
+    const PredictionGraph::Row& row = graph.rows[r];
+    out[lane] = &equations[r];
+    most = std::max(most, uint32_t{row.count});
+    if (row.count == 0) continue;
+    int64_t spread = 0;
+    for (uint32_t i = 0; i < row.count; ++i) {
+      for (int a = 0; a < 3; ++a) {
+        const int64_t d = points[order[row.neighbour[i]]][a] - points[order[r]][a];
+        y.neighbour[i][a][lane] = static_cast<double>(d);
+        spread += d * d;
+      }
+    }
+    y.inverse_noise[lane] =
+        1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
+  }
+  kernels.observe_points(y, most, out);
+}
+
+/// All rows together are far larger than what the processor keeps at hand.
+template <class Row>
+void prefetch(const Row& row) {
+  constexpr size_t kCacheLine = 64;
+  const auto* bytes = reinterpret_cast<const char*>(&row);
+  for (size_t at = 0; at < sizeof row; at += kCacheLine) __builtin_prefetch(bytes + at, 1);
+}
+
+std::vector<uint32_t> rows_by_count(const PredictionGraph& graph) {
+  std::array<uint32_t, kMaxNeighbours + 2> begin{};
+  for (const PredictionGraph::Row& row : graph.rows) ++begin[row.count + 1u];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<uint32_t> rows(graph.size());
+  for (uint32_t r = 0; r < graph.size(); ++r) rows[begin[graph.rows[r].count]++] = r;
+  return rows;
+}
+
+}  // namespace
+
+WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptions& options,
+                                 unsigned threads)
+    : graph_(graph),
+      options_(options),
+      threads_(threads),
+      targets_(options.sum_to_one ? 0 : graph.size()),
+      folded_(graph.size(), 0),
+      misses_(graph.size(), kNeverSolved),
+      by_count_(rows_by_count(graph)),
+      weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f) {}
+
+void WeightEstimator::observe_reference(const GridPoints& points,
+                                        const std::vector<uint32_t>& order) {
+  equations_.resize(graph_.size());
+  std::vector<uint32_t> rows(graph_.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  for (uint32_t first = 0; first < graph_.size(); first += kLanes) {
+    uint32_t eight[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
+    observe_rows(graph_, points, order, eight, kernels_, equations_);
+    solve_eight(rows, first, {});  // while they are at hand
+  }
+  std::fill(misses_.begin(), misses_.end(), uint8_t{0});
+}
+
+// Not before: a field that learns nothing needs none, and what the reference gives is written once.
+void WeightEstimator::make_equations() {
+  if (equations_.empty()) equations_.resize(graph_.size(), RowEquations{});
+}
+
+WeightEstimator::List WeightEstimator::list(const Planes& planes) const {
+  List out{};
+  for (uint32_t o = 0; o < observations_; ++o)
+    out[o] = planes[planes.size() - observations_ + o].data();
+  return out;
+}
+
+void WeightEstimator::begin_component(const Planes& planes) {
+  make_equations();
+  if (observations_ == kObservations) end_list(planes);
+}
+
+// As late as can be: after the last component that anything is solved for, rows need not learn.
+void WeightEstimator::end_list(const Planes& planes) {
+  const List observed = list(planes);
+  parallel_ranges(graph_.size(), threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t r = begin; r < end; ++r) {
+      if (misses_[r] > 0) fold(r, observed);
+    }
+  });
+  std::fill(folded_.begin(), folded_.end(), uint8_t{0});
+  observations_ = 0;
+}
+
+void WeightEstimator::fold(uint32_t r, const List& list) {
+  const PredictionGraph::Row& row = graph_.rows[r];
+  if (folded_[r] == observations_) return;
+  kernels_.fold(
+      equations_[r], options_.sum_to_one ? nullptr : targets_[r].data(),
+      {list.data(), scale_, row.neighbour.data(), row.count, r, folded_[r], observations_});
+  folded_[r] = static_cast<uint8_t>(observations_);
+}
+
+void WeightEstimator::fade(double factor, const Planes& planes) {
+  end_list(planes);
+  for (uint32_t r = 0; r < graph_.size(); ++r) {
+    for (auto& strip : equations_[r].strip) {
+      for (double& entry : strip) entry *= factor;
+    }
+    if (options_.sum_to_one) continue;
+    for (double& entry : targets_[r]) entry *= factor;
+  }
+  std::fill(misses_.begin(), misses_.end(), kNeverSolved);
+}
+
+void WeightEstimator::solve(uint32_t misses, const Planes& planes) {
+  make_equations();
+  const List observed = list(planes);
+  const std::vector<uint32_t> rows = take_missed(misses);
+  const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
+  parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
+    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
+      solve_eight(rows, first, observed);
+  });
+}
+
+std::vector<uint32_t> WeightEstimator::take_missed(uint32_t misses) {
+  std::vector<uint32_t> rows;
+  for (const uint32_t r : by_count_) {
+    if (misses_[r] < misses) continue;
+    rows.push_back(r);
+    misses_[r] = 0;
+  }
+  return rows;
+}
+
+void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t first,
+                                  const List& list) {
+  const uint32_t count = std::min(kLanes, static_cast<uint32_t>(rows.size()) - first);
+  float dropped[kMaxNeighbours];
+  uint32_t row[kLanes];
+  float* out[kLanes];
+  for (uint32_t l = 0; l < kLanes; ++l) {
+    // Lanes past the end repeat the last row; their results are dropped.
+    row[l] = rows[first + std::min(l, count - 1)];
+    if (first + l + 1 < rows.size()) {
+      prefetch(graph_.rows[rows[first + l + 1]]);
+      prefetch(equations_[rows[first + l + 1]]);
+    }
+    if (l < count) fold(row[l], list);
+    out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;
+  }
+  const double ring = options_.ring_deviation;
+  const double extra = options_.extra_deviation;
+  kernels_.solve(
+      {graph_.rows.data(), equations_.data(), options_.sum_to_one ? nullptr : targets_.data(),
+       1 / (ring * ring), 1 / (extra * extra)},
+      row, out);
+}
+
+}  // namespace reeb

@@ -1,0 +1,32 @@
+// The reference mesh of a shot, as the stream carries it: connectivity, positions on an integer
+// grid, and where each coded vertex goes in the output.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/common/base/sequence.h"
+#include "codec/common/prediction/prediction_graph.h"
+
+namespace reeb {
+
+/// Largest position on the grid, per axis.
+inline constexpr int32_t kGridMax = 65535;
+
+/// Vertices, faces and triangles that one byte of a coded mesh may stand for at most. Real meshes
+/// stay far below; the encoder pads what does not.
+inline constexpr uint64_t kElementsPerByte = 512;
+
+/// A decoded reference mesh. *Coding numbering* is the order in which the stream introduces
+/// vertices: those of Draco's mesh as Draco's decoder numbers them, then all others.
+struct ReferenceMesh {
+  uint32_t vertex_count = 0;
+  Connectivity connectivity;  ///< in output numbering; face order and first corners are free
+  std::vector<int32_t> grid;  ///< [coding vertex][xyz], 0 .. kGridMax
+  std::vector<uint32_t>
+      triangles;         ///< three coding vertices each, all different; every face as a fan
+  SurfaceGraph surface;  ///< of a plain mesh; else empty
+  std::vector<uint32_t> output_index;  ///< output vertex of each coding vertex, a permutation
+};
+
+}  // namespace reeb

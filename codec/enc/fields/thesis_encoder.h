@@ -1,0 +1,27 @@
+// Group encoder of the thesis profile: affine motion of the regions per frame with animation
+// weights, and the residual of each coordinate quantized with a step of its own (M. Hachani, 2015,
+// chapter 4). It shows what later tools gain.
+#pragma once
+
+#include "codec/enc/fields/group_encoder.h"
+
+namespace reeb {
+
+class ThesisEncoder : public GroupEncoder {
+ public:
+  ThesisEncoder(GroupSignal signal, unsigned threads)
+      : GroupEncoder(std::move(signal)), threads_(threads) {}
+
+  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
+                    GroupRun& run) override;
+  RatePoint expect(const SurfaceContext& surface, double q) override;
+  /// Positions less the origin, column 3 t + axis.
+  Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
+
+ private:
+  void choose_steps(const Eigen::MatrixXf& targets, const MotionFit* motion, CodedGroup& out) const;
+
+  unsigned threads_;
+};
+
+}  // namespace reeb
