@@ -9,12 +9,14 @@
 namespace reeb::tools {
 namespace {
 
+constexpr const char* kSeries[] = {"sequence", "configuration", "codec"};
+
 struct Options {
   std::string input;
   std::string output;
   std::string x = "bpvf";
   std::string y = "kg";
-  std::vector<std::string> series{"sequence"};
+  std::vector<std::string> series;  ///< empty: those of kSeries that the table has
   bool overwrite = false;
   PlotOptions plot;
   ConsoleOptions console;
@@ -24,7 +26,11 @@ Status draw(const Options& o, const std::string& csv, std::string& svg) {
   CsvTable table;
   std::vector<Curve> curves;
   Status status = parse_csv(csv, table);
-  if (status.ok()) status = curves_of(table, o.x, o.y, o.series, curves);
+  std::vector<std::string> series = o.series;
+  for (const char* name : kSeries) {
+    if (o.series.empty() && table.find(name) >= 0) series.emplace_back(name);
+  }
+  if (status.ok()) status = curves_of(table, o.x, o.y, series, curves);
   if (status.ok()) status = plot_svg(curves, o.plot, svg);
   return status;
 }
@@ -65,8 +71,10 @@ void add_plot_command(CLI::App& app, int& exit_code) {
   command->add_option("-x", o->x, "Column along; default bpvf")->type_name("COLUMN")->group(group);
   command->add_option("-y", o->y, "Column upwards; default kg")->type_name("COLUMN")->group(group);
   command
-      ->add_option("--series", o->series,
-                   "Columns whose values tell curves apart, as in sequence,codec; default sequence")
+      ->add_option(
+          "--series", o->series,
+          "Columns whose values tell curves apart, as in sequence,codec; default: those of "
+          "sequence, configuration and codec that there are")
       ->delimiter(',')
       ->type_name("COLUMNS")
       ->group(group);

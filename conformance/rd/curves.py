@@ -89,16 +89,18 @@ STYLE = ("text{font:11px system-ui,sans-serif;fill:#555}.title{font-weight:600;f
          ".grid{stroke:#ddd;stroke-width:1}")
 
 
-def sheet(panels, columns=3, width=330, height=260):
+def sheet(panels, columns=4, width=300, height=240):
     """Several plots with one legend, as a file of its own. `panels`: (title, curves) pairs."""
     rows = math.ceil(len(panels) / columns)
-    full_width, full_height = columns * width, rows * height + 44
+    full_width, full_height = columns * width, rows * height + 64
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full_width} {full_height}" width="{full_width}" '
              f'height="{full_height}"><style>{STYLE}</style><rect width="100%" height="100%" fill="white"/>']
     for i, (title, drawn) in enumerate(panels):
         parts.append(panel(drawn, i % columns * width, i // columns * height + 4, width, height - 8, title,
                            "bits per vertex and frame", "" if i % columns else "KG error, percent"))
-    return "".join(parts) + _legend(panels, 10, full_height - 18) + "</svg>\n"
+    parts.append(f'<text class="title" x="10" y="{full_height - 40}">Further down and to the left is better: less error '
+                 'in fewer bits.</text>')
+    return "".join(parts) + _legend(panels, 10, full_height - 16) + "</svg>\n"
 
 
 def _legend(panels, left, y):

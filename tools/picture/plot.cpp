@@ -13,7 +13,9 @@ namespace {
 constexpr double kLeft = 70;
 constexpr double kTop = 44;
 constexpr double kBottom = 56;
-constexpr double kLegend = 190;  ///< room at the right
+constexpr double kLegendLine = 18;
+constexpr double kLegendText = 40;    ///< from the end of the axis
+constexpr double kLetterWidth = 7.2;  ///< of the legend, more than most take
 
 // Told apart also by those who do not see red and green alike.
 constexpr std::array<const char*, 8> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -88,9 +90,7 @@ class Plot {
     x_.widen();
     y_.widen();
     x_.first = kLeft;
-    x_.last = options_.width - kLegend;
-    y_.first = options_.height - kBottom;
-    y_.last = kTop;
+    lay_out();
     draw_frame();
     for (size_t i = 0; i < curves_.size(); ++i) draw_curve(i);
     out = std::move(svg_) + "</svg>\n";
@@ -98,9 +98,22 @@ class Plot {
   }
 
  private:
+  /// The page grows with the legend.
+  void lay_out() {
+    size_t letters = 0;
+    for (const Curve& curve : curves_) letters = std::max(letters, curve.name.size());
+    const double legend = kLegendText + kLetterWidth * static_cast<double>(letters);
+    width_ = static_cast<int>(std::max(1.0 * options_.width, 2 * kLeft + 2 * legend));
+    const double lines = kTop + kLegendLine * static_cast<double>(curves_.size());
+    height_ = static_cast<int>(std::max(1.0 * options_.height, lines + kLegendLine));
+    x_.last = width_ - legend;
+    y_.first = height_ - kBottom;
+    y_.last = kTop;
+  }
+
   void draw_frame() {
-    const std::string width = std::to_string(options_.width);
-    const std::string height = std::to_string(options_.height);
+    const std::string width = std::to_string(width_);
+    const std::string height = std::to_string(height_);
     svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
            "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"" + width +
            "\" height=\"" + height + "\" fill=\"white\"/>\n";
@@ -115,7 +128,7 @@ class Plot {
       text(x_.first - 6, y + 4, "end", brief(value));
     }
     text(kLeft, 24, "start", options_.title, " font-weight=\"bold\"");
-    text((x_.first + x_.last) / 2, options_.height - 14, "middle", options_.x_label);
+    text((x_.first + x_.last) / 2, height_ - 14, "middle", options_.x_label);
     const double middle = (y_.first + y_.last) / 2;
     text(18, middle, "middle", options_.y_label,
          " transform=\"rotate(-90 18 " + brief(middle) + ")\"");
@@ -136,9 +149,9 @@ class Plot {
     const std::string stroke =
         "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"" + dash;
     svg_ += "<polyline points=\"" + points + stroke + "/>\n";
-    const double y = kTop + 8 + 18 * static_cast<double>(index);
+    const double y = kTop + 8 + kLegendLine * static_cast<double>(index);
     line(x_.last + 12, y, x_.last + 34, y, colour, " stroke-width=\"2\"" + dash);
-    text(x_.last + 40, y + 4, "start", curves_[index].name);
+    text(x_.last + kLegendText, y + 4, "start", curves_[index].name);
   }
 
   void line(double x1, double y1, double x2, double y2, const std::string& colour,
@@ -155,6 +168,8 @@ class Plot {
 
   const std::vector<Curve>& curves_;
   const PlotOptions& options_;
+  int width_ = 0;
+  int height_ = 0;
   Axis x_;
   Axis y_;
   std::string svg_;

@@ -18,7 +18,7 @@ struct PlotOptions {
   std::string title;
   std::string x_label;
   std::string y_label;
-  int width = 720;  ///< pixels
+  int width = 720;  ///< pixels at least; more where the legend needs it
   int height = 480;
 };
 

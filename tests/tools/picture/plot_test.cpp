@@ -63,4 +63,23 @@ TEST_CASE("a plot places points by their logarithms") {
   CHECK_FALSE(plot_svg({curves[1]}, {}, svg).ok());
 }
 
+TEST_CASE("the legend is inside the page, however long and many its names are") {
+  std::vector<Curve> curves(40, {std::string(60, 'w'), {{1, 1}, {2, 2}}});
+  std::string svg;
+  REQUIRE(plot_svg(curves, {}, svg).ok());
+  const auto number = [&](const std::string& name, size_t from) {
+    return std::stod(svg.substr(svg.find(name + "=\"", from) + name.size() + 2));
+  };
+  const double width = number("width", 0);
+  const double height = number("height", 0);
+  size_t names = 0;
+  for (size_t at = svg.find("<text"); at != svg.npos; at = svg.find("<text", at + 1)) {
+    if (svg.compare(svg.find('>', at) + 1, 2, "ww") != 0) continue;
+    ++names;
+    CHECK(number("x", at) + 60 * 7 < width);  // 12 pixels high, letters are some 7 wide
+    CHECK(number("y", at) < height);
+  }
+  CHECK(names == 40);
+}
+
 }  // namespace reeb::tools
