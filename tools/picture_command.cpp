@@ -37,12 +37,7 @@ Status select_frames(const std::vector<uint32_t>& asked, uint32_t count,
     }
     out.push_back(frame - 1);
   }
-  if (!asked.empty()) return {};
-  const uint32_t columns = std::min(count, kDefaultColumns);
-  for (uint32_t i = 0; i < columns; ++i) {
-    out.push_back(columns == 1 ? 0
-                               : static_cast<uint32_t>(uint64_t{i} * (count - 1) / (columns - 1)));
-  }
+  if (asked.empty()) out = spread_frames(count, kDefaultColumns);
   return {};
 }
 

@@ -10,6 +10,7 @@
 #include "tools/command.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
+#include "tools/picture/contact_sheet.h"
 #include "tools/segment_files.h"
 #include "tools/segment_picture.h"
 #include "tools/text.h"
@@ -24,7 +25,7 @@ struct Options {
   std::string mesh, graph, picture;
   uint32_t regions = 0;
   uint32_t columns = kDefaultColumns;
-  uint32_t tile = 400;
+  int tile = 400;
   double azimuth = 35;
   double elevation = 12;
   bool z_up = false;
@@ -66,15 +67,13 @@ class Segmented {
   }
 
   Status picture(const Options& o, std::string& png) const {
-    const uint32_t columns = std::min(o.columns, shot_.frame_count);
     std::vector<PictureFrame> frames;
-    for (uint32_t i = 0; i < columns; ++i) {
-      const uint32_t t = static_cast<uint32_t>(uint64_t{i} * shot_.frame_count / columns);
-      frames.push_back({shot_.frame(t), skeleton_.place(shot_.frame(t))});
+    for (const uint32_t t : spread_frames(shot_.frame_count, o.columns)) {
+      frames.push_back({t, shot_.frame(t), skeleton_.place(shot_.frame(t))});
     }
-    const PictureSubject subject{triangles_, labels_, &result_.graph};
+    const PictureSubject subject{&shot_.connectivity, labels_, &result_.graph};
     const Camera camera = Camera::orbit(o.azimuth, o.elevation, o.z_up);
-    return render_povray(povray_scene(subject, frames, camera, o.tile), o.threads, png);
+    return encode_png(segment_picture(subject, frames, camera, o.tile), png);
   }
 
  private:
@@ -168,7 +167,7 @@ void add_picture_options(CLI::App& command, Options& o) {
       ->type_name("N")
       ->group(group);
   command.add_option("--tile", o.tile, "Width of a frame in pixels, 16 to 4096; default 400")
-      ->check(CLI::Range(16u, 4096u).description(""))
+      ->check(CLI::Range(16, 4096).description(""))
       ->type_name("N")
       ->group(group);
   command
@@ -204,7 +203,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command
       ->add_option("--png", o->picture,
-                   "A picture of several frames with the graph inside; needs the program povray")
+                   "A picture of several frames, regions numbered and the graph inside")
       ->type_name("FILE");
   command
       ->add_option(

@@ -1,14 +1,12 @@
-// A picture of a segmented sequence, rendered off-screen by POV-Ray.
+// A picture of a segmented sequence.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "bitstream/status.h"
+#include "codec/common/base/sequence.h"
 #include "segmentation/skeleton.h"
 #include "tools/picture/render.h"
 
@@ -19,30 +17,21 @@ std::array<double, 3> region_colour(uint32_t region);
 
 /// One mesh of the picture.
 struct PictureFrame {
+  uint32_t frame = 0;                ///< of the sequence, from 0
   std::span<const float> positions;  ///< [vertex][x, y, z], finite
   segmentation::SkeletonPose skeleton;
 };
 
 /// What all meshes of the picture have in common.
 struct PictureSubject {
-  std::span<const uint32_t> triangles;  ///< three vertices each
-  std::span<const uint32_t> labels;     ///< region per vertex
+  const Connectivity* connectivity = nullptr;
+  std::span<const uint32_t> labels;  ///< region per vertex
   const segmentation::Graph* graph = nullptr;
 };
 
-/// A scene in POV-Ray's language and the size that it is made for.
-struct PovrayScene {
-  std::string text;
-  uint32_t width = 0, height = 0;  ///< pixels
-};
-
 /// The frames (at least one) side by side from left to right, each centred in `tile` pixels of
-/// width; regions coloured and translucent, the graph inside.
-PovrayScene povray_scene(const PictureSubject& subject, const std::vector<PictureFrame>& frames,
-                         const Camera& camera, uint32_t tile);
-
-/// Renders a scene into the bytes of a PNG file with the command `povray`, which must be installed.
-/// `threads` 0 = all cores.
-Status render_povray(const PovrayScene& scene, unsigned threads, std::string& png);
+/// width; regions coloured and, unless there are very many, numbered, the graph shining through.
+Image segment_picture(const PictureSubject& subject, const std::vector<PictureFrame>& frames,
+                      const Camera& camera, int tile);
 
 }  // namespace reeb::tools

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -77,23 +78,40 @@ TEST_CASE("the graph as JSON holds nodes, arcs, regions and a pose per frame") {
   }
 }
 
-TEST_CASE("a picture is rendered, or the message names the missing program") {
+TEST_CASE("a picture has a tile for each frame, with the regions' colours and the graph") {
   const Creature c;
-  const PictureSubject subject{c.shot.connectivity.corners, c.result.labels, &c.result.graph};
+  const PictureSubject subject{&c.shot.connectivity, c.result.labels, &c.result.graph};
   std::vector<PictureFrame> frames;
   for (uint32_t t = 0; t < 2; ++t) {
-    frames.push_back({c.shot.frame(t), c.skeleton.place(c.shot.frame(t))});
+    frames.push_back({t, c.shot.frame(t), c.skeleton.place(c.shot.frame(t))});
   }
-  const PovrayScene scene = povray_scene(subject, frames, Camera::orbit(35, 12, false), 32);
-  CHECK(scene.width == 64);
-  CHECK(lines_starting(scene.text, "mesh2 {") == 2);
-  std::string png;
-  const Status status = render_povray(scene, 1, png);
-  if (status.ok()) {
-    CHECK(png.starts_with("\x89PNG"));
-  } else {
-    CHECK_THAT(status.message(), Catch::Contains("povray"));
+  const Image image = segment_picture(subject, frames, Camera::orbit(35, 12, false), 300);
+  CHECK(image.width == 600);
+  for (const int left : {0, 300}) {
+    size_t coloured = 0;
+    size_t dark = 0;
+    for (int y = 30; y < image.height; ++y) {  // below the words
+      for (int x = left; x < left + 300; ++x) {
+        const auto [low, high] =
+            std::minmax({image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]});
+        coloured += high - low > 40;
+        dark += high < 90;
+      }
+    }
+    CHECK(coloured > 8000);
+    CHECK(dark > 300);
   }
+}
+
+TEST_CASE("a picture of a mesh without extent, or of none, has a size") {
+  const std::vector<float> positions(9, 1.0f);
+  const std::vector<uint32_t> labels(3, 0);
+  const segmentation::Graph graph;
+  const Connectivity dot{3, {3}, {0, 1, 2}};
+  const Image image =
+      segment_picture({&dot, labels, &graph}, {{0, positions, {}}}, Camera::orbit(0, 0, false), 16);
+  CHECK(image.width == 16);
+  CHECK(image.height > 0);
 }
 
 }  // namespace reeb::tools

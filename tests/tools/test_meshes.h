@@ -1,7 +1,6 @@
 // Small meshes, odd ones among them.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@ struct TestMesh {
 };
 
 inline TestMesh test_mesh(const std::string& name, std::vector<float> positions,
-                          std::initializer_list<std::vector<uint32_t>> faces) {
+                          const std::vector<std::vector<uint32_t>>& faces) {
   TestMesh mesh{name, {}, std::move(positions)};
   mesh.connectivity.vertex_count = static_cast<uint32_t>(mesh.positions.size() / 3);
   for (const auto& face : faces) {

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kSupersampling = 3;
 constexpr int kLineHeight = 26;
-constexpr int kTextScale = 2;
 constexpr double kFilled = 0.92;  ///< part of a tile that the largest frame takes
 constexpr Colour kInk{60, 60, 66};
 constexpr Colour kPaper{255, 255, 255};
@@ -72,8 +71,7 @@ class Sheet {
   }
 
   void text(const std::string& words, int left, int top) {
-    draw_text(words, left + 8, top + (kLineHeight - kTextScale * kGlyphHeight) / 2, kTextScale,
-              kInk, image_);
+    draw_text(words, left + 8, top + (kLineHeight - kTextHeight) / 2, kInk, image_);
   }
 
   void choose_scale() {
@@ -125,7 +123,7 @@ class Sheet {
     const double percent = diagonal > 0 ? 100 * largest_error_ / diagonal : 0;
     const std::string after =
         brief(largest_error_, 3) + " (" + brief(percent, 3) + "% of the diagonal)";
-    const int bar_left = 8 + kGlyphWidth * kTextScale * static_cast<int>(before.size());
+    const int bar_left = 8 + text_width(before);
     const int bar_width = std::clamp(image_.width / 5, 40, 120);
     text(before, 0, top);
     for (int x = 0; x < bar_width && bar_left + x < image_.width; ++x) {
@@ -145,6 +143,16 @@ class Sheet {
 };
 
 }  // namespace
+
+std::vector<uint32_t> spread_frames(uint32_t frame_count, uint32_t columns) {
+  columns = std::min(columns, frame_count);
+  std::vector<uint32_t> frames;
+  for (uint32_t i = 0; i < columns; ++i) {
+    const uint64_t gaps = std::max(columns, 2u) - 1;
+    frames.push_back(static_cast<uint32_t>(uint64_t{i} * (frame_count - 1) / gaps));
+  }
+  return frames;
+}
 
 Image contact_sheet(const Sequence& original, const Sequence* other, const SheetOptions& options) {
   return Sheet(original, other, options).run();

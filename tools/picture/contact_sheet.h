@@ -18,6 +18,9 @@ struct SheetOptions {
   Camera camera = Camera::orbit(35, 12, false);
 };
 
+/// `columns` frames, or all where there are fewer, from the first to the last.
+std::vector<uint32_t> spread_frames(uint32_t frame_count, uint32_t columns);
+
 /// One column per frame. Rows: `original`; where `other` is given (compared with success before),
 /// it and the displacement of its vertices in colour, from 0 to the largest one shown. All frames
 /// have one scale, each is centred by itself.

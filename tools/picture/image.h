@@ -30,11 +30,21 @@ Status encode_png(const Image& image, std::string& out);
 /// Copies `tile`, shrunk `factor` times by averaging, to (left, top); all of it must fit.
 void paste_shrunk(const Image& tile, int factor, int left, int top, Image& out);
 
-/// Width of a glyph of `draw_text`, its gap included, and height of a line, at scale 1.
-inline constexpr int kGlyphWidth = 6;
-inline constexpr int kGlyphHeight = 7;
+/// `part` (0 .. 1) of `over`, the rest of `under`.
+Colour mixed(const Colour& under, const Colour& over, double part);
 
-/// Draws capitals, digits and common signs; other characters leave a gap. Clipped at the borders.
-void draw_text(const std::string& text, int left, int top, int scale, Colour colour, Image& out);
+struct Point {
+  double x = 0;  ///< pixels from the left
+  double y = 0;  ///< from the top
+};
+
+/// A thick line with round ends; a disc where both ends are one point. Clipped at the borders.
+void draw_line(Point from, Point to, double radius, Colour colour, Image& out);
+
+inline constexpr int kTextHeight = 18;  ///< of a line of `draw_text`
+
+/// Draws printable ASCII, "?" for any other byte. Clipped at the borders.
+void draw_text(const std::string& text, int left, int top, Colour colour, Image& out);
+int text_width(const std::string& text);
 
 }  // namespace reeb::tools

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace reeb::tools {
 namespace {
@@ -11,44 +12,56 @@ Vec3 point(std::span<const float> positions, size_t v) {
   return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
 }
 
-/// Calls body(a, b, c) for the triangles of all faces.
-template <typename Body>
-void for_each_triangle(const Connectivity& connectivity, const Body& body) {
+using Face = std::span<const uint32_t>;
+
+std::vector<Face> faces_of(const Connectivity& connectivity) {
+  std::vector<Face> faces;
   const uint32_t* corner = connectivity.corners.data();
   for (const uint32_t size : connectivity.face_sizes) {
-    for (uint32_t i = 2; i < size; ++i) body(corner[0], corner[i - 1], corner[i]);
+    faces.emplace_back(corner, size);
     corner += size;
   }
+  return faces;
+}
+
+/// Normal of a polygon, twice its area long, so that large faces count more in sums.
+Vec3 area_normal(Face face, std::span<const float> positions) {
+  Vec3 sum;
+  for (size_t i = 2; i < face.size(); ++i) {
+    const Vec3 a = point(positions, face[0]);
+    sum += cross(point(positions, face[i - 1]) - a, point(positions, face[i]) - a);
+  }
+  return sum;
 }
 
 constexpr double kCreaseCosine = 0.77;  ///< faces that meet at more than 40 degrees keep their edge
+constexpr size_t kMostCreased =
+    100;  ///< faces around a vertex; where there are more, all are smooth
 
-using Triangle = std::array<uint32_t, 3>;
-
-/// Normals at the corners of triangles: of all triangles at the vertex that are not across a
-/// crease.
+/// Normals at the corners of faces: of all faces at the vertex that are not across a crease.
 class CornerNormals {
  public:
-  CornerNormals(const std::vector<Triangle>& triangles, std::span<const float> positions,
+  CornerNormals(const std::vector<Face>& faces, std::span<const float> positions,
                 uint32_t vertex_count)
-      : triangles_(triangles), first_(size_t{vertex_count} + 1) {
-    for (const Triangle& t : triangles) {
-      const Vec3 a = point(positions, t[0]);
-      // Twice the area long, so that large faces count more.
-      areas_.push_back(cross(point(positions, t[1]) - a, point(positions, t[2]) - a));
-      for (const uint32_t v : t) ++first_[size_t{v} + 1];
+      : sums_(vertex_count), first_(size_t{vertex_count} + 1) {
+    for (const Face face : faces) {
+      areas_.push_back(area_normal(face, positions));
+      for (const uint32_t v : face) {
+        ++first_[size_t{v} + 1];
+        sums_[v] += areas_.back();
+      }
     }
     for (size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    around_.resize(triangles.size() * 3);
+    around_.resize(first_.back());
     std::vector<size_t> next(first_.begin(), first_.end() - 1);
-    for (size_t i = 0; i < triangles.size(); ++i) {
-      for (const uint32_t v : triangles[i]) around_[next[v]++] = i;
+    for (size_t i = 0; i < faces.size(); ++i) {
+      for (const uint32_t v : faces[i]) around_[next[v]++] = i;
     }
   }
 
-  Vec3 at(size_t triangle, size_t corner) const {
-    const uint32_t v = triangles_[triangle][corner];
-    const Vec3 own = normalized(areas_[triangle]);
+  Vec3 at(size_t face, uint32_t v) const {
+    if (first_[size_t{v} + 1] - first_[v] > kMostCreased) return sums_[v];
+    const Vec3 own = normalized(areas_[face]);
     Vec3 sum;
     for (size_t i = first_[v]; i < first_[size_t{v} + 1]; ++i) {
       const Vec3& other = areas_[around_[i]];
@@ -58,15 +71,15 @@ class CornerNormals {
   }
 
  private:
-  const std::vector<Triangle>& triangles_;
-  std::vector<Vec3> areas_;
+  std::vector<Vec3> areas_;     ///< of each face
+  std::vector<Vec3> sums_;      ///< of each vertex
   std::vector<size_t> first_;   ///< of each vertex, in `around_`
-  std::vector<size_t> around_;  ///< triangles at each vertex
+  std::vector<size_t> around_;  ///< faces at each vertex
 };
 
 /// A vertex in the picture.
 struct Corner {
-  Vec3 at;      ///< pixels right and down, depth towards the eye
+  Vec3 at;      ///< pixels right and down, units of the mesh towards the eye
   Vec3 normal;  ///< in the axes of the camera
   Vec3 colour;
 };
@@ -90,16 +103,36 @@ class Rasterizer {
     const int top = static_cast<int>(std::clamp(y_min, 0.0, 1.0 * out_.height));
     const int bottom = static_cast<int>(std::clamp(y_max + 1, 0.0, 1.0 * out_.height));
     for (int y = top; y < bottom; ++y) {
-      for (int x = left; x < right; ++x) {
+      const auto weights = [&](double x) {
         const Vec3 p{x + 0.5, y + 0.5, 0};
-        const std::array<double, 3> w{edge(b.at, c.at, p) / area, edge(c.at, a.at, p) / area,
-                                      edge(a.at, b.at, p) / area};
+        return std::array<double, 3>{edge(b.at, c.at, p) / area, edge(c.at, a.at, p) / area,
+                                     edge(a.at, b.at, p) / area};
+      };
+      const auto [first, last] = inside(weights(left), weights(left + 1), right - left);
+      for (int x = left + first; x < left + last; ++x) {
+        const std::array<double, 3> w = weights(x);
         if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) draw_pixel(x, y, a, b, c, w);
       }
     }
   }
 
  private:
+  /// The part of 0 .. `count` out of which three linear functions, given at 0 and at 1, are not all
+  /// positive, a pixel wider at both ends than rounding needs.
+  static std::pair<int, int> inside(const std::array<double, 3>& at_0,
+                                    const std::array<double, 3>& at_1, int count) {
+    double first = 0;
+    double last = count;
+    for (size_t i = 0; i < 3; ++i) {
+      const double slope = at_1[i] - at_0[i];
+      if (slope > 0) first = std::max(first, -at_0[i] / slope - 1);
+      if (slope < 0) last = std::min(last, -at_0[i] / slope + 2);
+      if (slope == 0 && at_0[i] < 0) last = 0;
+    }
+    return first < last ? std::pair(static_cast<int>(first), static_cast<int>(last))
+                        : std::pair(0, 0);
+  }
+
   static double edge(const Vec3& a, const Vec3& b, const Vec3& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
   }
@@ -147,28 +180,31 @@ Camera Camera::orbit(double azimuth, double elevation, bool z_up) {
   return camera;
 }
 
+Point Framing::place(const Vec3& p, const Camera& camera, const Image& image) const {
+  const Vec3 d = (p - centre) * pixels_per_unit;
+  return {0.5 * image.width + dot(d, camera.right), 0.5 * image.height - dot(d, camera.up)};
+}
+
 void draw_mesh(const Connectivity& connectivity, std::span<const float> positions,
                std::span<const Colour> colours, const Camera& camera, const Framing& framing,
                Image& out) {
-  std::vector<Triangle> triangles;
-  for_each_triangle(connectivity, [&](uint32_t a, uint32_t b, uint32_t c) {
-    triangles.push_back({a, b, c});
-  });
-  const CornerNormals normals(triangles, positions, connectivity.vertex_count);
+  const std::vector<Face> faces = faces_of(connectivity);
+  const CornerNormals normals(faces, positions, connectivity.vertex_count);
   Rasterizer rasterizer(out);
-  for (size_t i = 0; i < triangles.size(); ++i) {
-    std::array<Corner, 3> corners;
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t v = triangles[i][k];
-      const Vec3 p = (point(positions, v) - framing.centre) * framing.pixels_per_unit;
-      const Vec3 n = normals.at(i, k);
+  std::vector<Corner> corners;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    corners.clear();
+    for (const uint32_t v : faces[i]) {
+      const Vec3 n = normals.at(i, v);
       const Colour& c = colours.size() == 1 ? colours[0] : colours[v];
-      corners[k] = {{0.5 * out.width + dot(p, camera.right), 0.5 * out.height - dot(p, camera.up),
-                     dot(p, camera.back)},
-                    {dot(n, camera.right), dot(n, camera.up), dot(n, camera.back)},
-                    {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}};
+      const Point p = framing.place(point(positions, v), camera, out);
+      corners.push_back({{p.x, p.y, dot(point(positions, v) - framing.centre, camera.back)},
+                         {dot(n, camera.right), dot(n, camera.up), dot(n, camera.back)},
+                         {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}});
     }
-    rasterizer.draw(corners[0], corners[1], corners[2]);
+    for (size_t k = 2; k < corners.size(); ++k) {
+      rasterizer.draw(corners[0], corners[k - 1], corners[k]);
+    }
   }
 }
 

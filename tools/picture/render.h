@@ -25,10 +25,13 @@ struct Camera {
 struct Framing {
   Vec3 centre;
   double pixels_per_unit = 1;
+
+  /// Where a point of space is in the picture.
+  Point place(const Vec3& p, const Camera& camera, const Image& image) const;
 };
 
-/// Draws polygons (as fans of triangles, both sides alike). `colours` has one entry per vertex, or
-/// one for all.
+/// Draws polygons (as fans of triangles, both sides alike), in time linear in corners and pixels.
+/// `colours` has one entry per vertex, or one for all.
 void draw_mesh(const Connectivity& connectivity, std::span<const float> positions,
                std::span<const Colour> colours, const Camera& camera, const Framing& framing,
                Image& out);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
 #include <set>
 
 #include "tests/tools/test_meshes.h"
@@ -53,15 +55,44 @@ TEST_CASE("shrinking averages") {
   CHECK(count_drawn(out) == 2);
 }
 
-TEST_CASE("text has the dots of its glyphs and stays inside") {
-  Image image(12, 7);
-  draw_text("I", 0, 0, 1, {0, 0, 0}, image);
-  // Three dots above, three below, five between.
-  CHECK(count_drawn(image) == 11);
+TEST_CASE("text has its ink where its letters are, and stays inside") {
+  Image image(40, kTextHeight);
+  draw_text("l", 10, 0, {0, 0, 0}, image);
+  const auto ink = [&](int x, int y) { return image.at(x, y)[0] < 128; };
+  // A stem on the baseline: narrow, taller than wide, beside the pen.
+  std::set<int> columns;
+  std::set<int> rows;
+  for (int i = 0; i < 40 * kTextHeight; ++i) {
+    if (ink(i % 40, i / 40)) columns.insert(i % 40), rows.insert(i / 40);
+  }
+  REQUIRE_FALSE(rows.empty());
+  CHECK(columns.size() <= 2);
+  CHECK(rows.size() >= 9);
+  CHECK(*columns.begin() >= 10);
+  CHECK(*columns.begin() < 10 + text_width("l"));
   Image small(3, 3);
-  draw_text("WWWW", -2, -2, 2, {0, 0, 0}, small);
-  draw_text("~", 0, 0, 1, {0, 0, 0}, small);
+  draw_text("WWWW", -2, -2, {0, 0, 0}, small);
   CHECK(small.pixels.size() == 9);
+  CHECK(text_width("mm") > 2 * text_width("i"));
+  CHECK(text_width("\xc3") == text_width("?"));
+}
+
+TEST_CASE("lines cover a stadium, discs a circle") {
+  Image image(100, 60);
+  draw_line({30, 30}, {70, 30}, 10, {0, 0, 0}, image);
+  CHECK(static_cast<double>(count_drawn(image)) == Approx(800 + 314.2).epsilon(0.01));
+  CHECK(image.at(50, 21) == Colour{0, 0, 0});
+  CHECK(image.at(50, 18) == kWhite);
+  Image disc(40, 40);
+  draw_line({20, 20}, {20, 20}, 15, {0, 0, 0}, disc);
+  CHECK(static_cast<double>(count_drawn(disc)) == Approx(706.9).epsilon(0.02));
+  draw_line({-50, -50}, {90, 300}, 9, {9, 0, 0}, disc);  // clipped
+}
+
+TEST_CASE("frames are spread from the first to the last") {
+  CHECK(spread_frames(100, 4) == std::vector<uint32_t>{0, 33, 66, 99});
+  CHECK(spread_frames(2, 4) == std::vector<uint32_t>{0, 1});
+  CHECK(spread_frames(5, 1) == std::vector<uint32_t>{0});
 }
 
 TEST_CASE("cameras look along the axes they say") {
@@ -122,6 +153,31 @@ TEST_CASE("faces that meet at a right angle keep their edge, nearly flat ones do
   };
   CHECK(shades(1.0f) == 2);
   CHECK(shades(0.2f) > 4);
+}
+
+TEST_CASE("a polygon of many corners covers its disc, about as fast as as many triangles") {
+  constexpr uint32_t kCorners = 20000;
+  std::vector<float> rim;
+  std::vector<uint32_t> whole;
+  std::vector<std::vector<uint32_t>> hub;  // triangles around one vertex
+  for (uint32_t i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / kCorners;
+    rim.insert(rim.end(),
+               {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    whole.push_back(i);
+    if (i > 1) hub.push_back({0, i - 1, i});
+  }
+  const Colour red{200, 0, 0};
+  for (const auto& faces : {std::vector<std::vector<uint32_t>>{whole}, hub}) {
+    const TestMesh disc = test_mesh("disc", rim, faces);
+    Image image(600, 600);
+    const auto start = std::chrono::steady_clock::now();
+    draw_mesh(disc.connectivity, disc.positions, {&red, 1}, kFront, {{0, 0, 0}, 250}, image);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    CHECK(static_cast<double>(count_drawn(image)) ==
+          Approx(250 * 250 * std::acos(-1.0)).epsilon(0.01));
+    CHECK(seconds.count() < 5);  // quadratic work takes many times that
+  }
 }
 
 TEST_CASE("degenerate and isolated parts draw nothing") {
