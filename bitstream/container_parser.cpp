@@ -285,6 +285,13 @@ void ContainerParser::note_chunk(const Chunk& chunk, uint32_t frame_count) {
 }
 
 Status ContainerParser::check_reference(const Chunk& chunk, const ReferenceChunk& r) const {
+  if (r.mesh_header.vertex_count > limits_.max_vertices) {
+    return Status::limit(std::to_string(r.mesh_header.vertex_count) +
+                         " vertices, more than allowed");
+  }
+  if (r.mesh_header.face_count > limits_.max_faces) {
+    return Status::limit(std::to_string(r.mesh_header.face_count) + " faces, more than allowed");
+  }
   const bool first = out_.references.empty();
   if (r.header.shot >= out_.header.shot_count) return corrupt(chunk, "shot is not announced");
   if (!first && r.header.shot <= out_.references.back().header.shot) {
@@ -297,13 +304,6 @@ Status ContainerParser::check_reference(const Chunk& chunk, const ReferenceChunk
       (r.header.shot != out_.references.size() || r.header.first_frame != frames_end() ||
        (!first && r.header.first_frame == out_.references.back().header.first_frame))) {
     return corrupt(chunk, "shots are not consecutive");
-  }
-  if (r.mesh_header.vertex_count > limits_.max_vertices) {
-    return Status::limit(std::to_string(r.mesh_header.vertex_count) +
-                         " vertices, more than allowed");
-  }
-  if (r.mesh_header.face_count > limits_.max_faces) {
-    return Status::limit(std::to_string(r.mesh_header.face_count) + " faces, more than allowed");
   }
   return {};
 }

@@ -150,6 +150,12 @@ class File:
         out.chunks = self.chunks[:i] + self.chunks[i + 1:]
         return out
 
+    def only(self, *kinds):
+        """The first chunk of each of these types."""
+        out = File.__new__(File)
+        out.chunks = [self.chunks[self.places(kind)[0]] for kind in kinds]
+        return out
+
     def offsets(self):
         """Where each chunk starts, and where `seek` does."""
         at = [8]
@@ -257,6 +263,15 @@ def add_checksums(m):
           (data[:at[3] + 4] + b"\xFF\xFF\x7F" + data[at[3] + 7:])[:at[-1]])
     m.add("damaged_table", "ok", "The seek table has a wrong checksum; nothing is lost.", flipped(data, at[-1] + 8))
     m.add("damaged_trailer", "ok", "The trailer leads nowhere; nothing is lost.", data[:-8] + b"\0\0\0\0reeb")
+    m.add("damaged_table_length", "truncated", "The seek table's length leads past the end; all groups are whole.",
+          data[:at[-1] + 4] + b"\x7F" + data[at[-1] + 5:])
+    m.add("damaged_last_length", "corrupt", "The last group's length leads past the end; the table knows where `seek` is.",
+          data[:at[5] + 4] + b"\xFF\xFF\x7F" + data[at[5] + 7:])
+    m.add("damaged_end_mark", "ok", "The letters of the trailer are wrong; nothing is lost.", data[:-4] + b"reef")
+    m.add("bytes_after_trailer", "ok", "Bytes behind the trailer, which is none then; nothing is lost.", data + b"\0" * 9)
+    m.add("short_trailer", "truncated", "Seven bytes of a trailer; nothing is lost.", data[:-1])
+    m.add("damaged_type_no_table", "truncated", "A group's type is no letters, and no table leads past it: the rest is lost.",
+          data[:at[3]] + b"\1\2\3\4" + data[at[3] + 4:-8] + b"\0\0\0\0reeb")
     shots = m.sound("shots")
     shot_at = File(shots).offsets()
     second = File(shots).places(b"REFM")[1]
@@ -306,6 +321,14 @@ def add_headers(m):
         m.add(name, "corrupt", sentence, file.edited(b"HEAD", **changes))
     m.add("too_many_frames", "limit exceeded", "2^32 - 1 frames, more than a decoder need allow.",
           file.edited(b"HEAD", total_frames=UINT32))
+    m.add("limit_before_places", "limit exceeded", "2^25 vertices of a shot that is not announced: the limit goes first.",
+          file.edited(b"REFM", vertex_count=1 << 25, shot=1))
+    unknown = File(m.sound("open_ended"))
+    m.add("open_ended_empty", "corrupt", "An open-ended file without a shot.",
+          unknown.only(b"HEAD"))
+    m.add("open_ended_no_group", "corrupt", "An open-ended file whose shot has no group.", unknown.only(b"HEAD", b"REFM"))
+    m.add("open_ended_too_long", "limit exceeded", "A group of an open-ended file that ends behind 2^32 frames.",
+          unknown.edited(b"GRUP", first_frame=UINT32))
     m.add("open_ended_without_end", "truncated", "An open-ended file that ends behind its second group.",
           m.sound("open_ended")[:File(m.sound("open_ended")).offsets()[4]])
     for name, sentence, changes in (
@@ -340,6 +363,27 @@ def add_headers(m):
             ("too_many_regions", "1025 regions; the other groups decode.", dict(region_count=1025)),
             ("motion_not_used", "A motion section where no region is.", dict(motion=b"\1\2\3"))):
         m.add(name, "corrupt", sentence, file.edited(b"GRUP", **changes))
+    m.add("beyond_components", "corrupt", "3 * 2^16 + 1 components, which no group has: the file is refused.",
+          file.edited(b"GRUP", component_count=3 * 65536 + 1))
+    mixed = File(m.sound("profiles_mixed"))
+    for name, sentence, which, changes in (
+            ("one_of_wrong_components", "Two groups of three decode beside one of the thesis profile with too few components.",
+             0, dict(component_count=5)),
+            ("one_with_basis", "The same beside one with a basis.", 0, dict(basis=b"\1")),
+            ("one_continues", "The same beside one that continues another profile.", 2, dict(flags=b"\1")),
+            ("one_is_loose", "The same beside one of loose weights.", 2, dict(flags=b"\x08"))):
+        m.add(name, "corrupt", sentence, mixed.edited(b"GRUP", which, **changes))
+    exact = File(m.sound("lossless_shots"))
+    m.add("one_lossless_of_none", "corrupt", "A lossless group of no coded frames; the others decode.",
+          exact.edited(b"GRUP", 1, component_count=0))
+    m.add("one_lossless_of_more", "corrupt", "A lossless group of more coded frames than frames; the others decode.",
+          exact.edited(b"GRUP", 1, component_count=4))
+    shots = File(m.sound("shots"))
+    second = read_reference(shots.chunks[shots.places(b"REFM")[1]][1])
+    m.add("one_mesh_flags", "corrupt", "A reserved bit of the second of three coded meshes: the file is refused.",
+          shots.edited(b"REFM", 1, mesh_flags=b"\x80"))
+    m.add("one_mesh_not_filled", "corrupt", "Bytes behind the sections of the second of three meshes: its shot is lost.",
+          shots.edited(b"REFM", 1, order=second["order"] + b"\0", order_bytes=len(second["order"])))
     thesis = File(m.sound("thesis"))
     m.add("thesis_components", "corrupt", "A thesis group with too few components.",
           thesis.edited(b"GRUP", component_count=14))

@@ -24,8 +24,9 @@ LARGEST = 60000  # bytes of a stream
 QUICK = 3000  # vertices times planes that a slow decoder can do in a second or two
 
 INTRODUCTION = {
-    "core": "What the encoder writes. Every decoder gives these frames.",
-    "uncommon": "What the syntax allows and the encoder does not write. Every decoder gives these frames too.",
+    "core": "What the encoder writes, and what pins the decoding process beside that: meshes at its bounds and sections of random "
+            "bytes. Every decoder gives these frames.",
+    "uncommon": "Extremes that the syntax allows and the encoder does not write. Every decoder gives these frames too.",
     "faulty": "What is damaged or breaks the specification. A decoder gives this result, and these frames alone.",
 }
 

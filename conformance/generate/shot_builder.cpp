@@ -1,11 +1,13 @@
 #include "conformance/generate/shot_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
 
+#include "bitstream/bytes.h"
 #include "bitstream/chunk.h"
 #include "bitstream/syntax.h"
 #include "codec/common/fast/lane_field.h"
@@ -145,6 +147,35 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   require(write_header(header, "mesh header", bytes));
   bytes.insert(bytes.end(), rest.begin(), rest.end());
   return finish_mesh(std::move(bytes));
+}
+
+BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces) {
+  ByteReader in(mesh.bytes);
+  MeshHeader header;
+  require(read_header(in, "mesh header", header));
+  const size_t kept = in.remaining() - static_cast<size_t>(header.face_bytes);
+  const std::span<const uint8_t> sections = in.take(kept);
+  header.face_bytes = faces.size();
+  Bytes bytes;
+  require(write_header(header, "mesh header", bytes));
+  bytes.insert(bytes.end(), sections.begin(), sections.end());
+  bytes.insert(bytes.end(), faces.begin(), faces.end());
+  return finish_mesh(std::move(bytes));
+}
+
+void set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes) {
+  CorrectionField field(mesh.surface.graph, group.header.frame_count);
+  BinaryDecoder decoder(bytes);
+  group.header.correction_count = 0;
+  const bool sound = field.code(
+      decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
+      [&](uint32_t, uint32_t, uint32_t, const Correction& c) {
+        ++group.header.correction_count;
+        return std::isfinite(c.value);
+      });
+  require(sound && !decoder.overrun() ? Status() : Status::corrupt("no correction section"));
+  group.header.flags |= GroupHeader::kCorrected;
+  group.correction_section = std::move(bytes);
 }
 
 void build_sections(const BuiltMesh& mesh, BuiltGroup& group) {

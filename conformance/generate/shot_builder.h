@@ -36,6 +36,8 @@ BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> 
                      const ReferenceOptions& options = {});
 /// The same with every face listed, none left to Draco.
 BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid);
+/// The mesh with other bytes for its section *faces*, which is there.
+BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces);
 
 /// A group; its sections are made from the choices, unless they are there already.
 struct BuiltGroup {
@@ -47,6 +49,9 @@ struct BuiltGroup {
   std::function<Correction(uint32_t row, uint32_t t, uint32_t axis)> correction;
   Bytes motion_section, coefficient_section, basis_section, correction_section;
 };
+
+/// Takes the bytes for the group's correction section, and counts the corrections that they are.
+void set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes);
 
 /// Makes the sections that are not there.
 void build_sections(const BuiltMesh& mesh, BuiltGroup& group);

@@ -19,6 +19,8 @@ struct Stream {
 
 /// What the product's encoder makes of procedural meshes.
 std::vector<Stream> encoded_streams();
+/// Odd meshes and random sections, which pin what the encoder's streams leave open.
+std::vector<Stream> pinning_streams();
 /// What it never writes but the syntax allows, put together from the syntax structures.
 std::vector<Stream> built_streams();
 

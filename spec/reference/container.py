@@ -270,24 +270,21 @@ class FileReader:
     def read_chunks(self, offset):
         landmarks = find_landmarks(self.data)
         while not self.at_end(offset):
-            chunk = None
             try:
                 chunk = read_chunk(self.data, offset)
+                end = offset + chunk.size
                 if chunk.intact:
                     with_end_as_fault(self.take, chunk)
-                    offset += chunk.size
+                    offset = end
                     continue
             except NoChunk:
-                pass
+                end = len(self.data)
             except Truncated:
-                self.file.truncated = not any(at > offset for at in landmarks)
+                end = None
             self.file.damaged = True
-            later = [at for at in landmarks if at > offset]
-            if later:
-                offset = later[0]
-            elif chunk is not None:
-                offset += chunk.size
-            else:
+            offset = min((at for at in landmarks if at > offset), default=end)
+            if offset is None:
+                self.file.truncated = True
                 return
 
     def at_end(self, offset):
@@ -327,6 +324,9 @@ class FileReader:
     def take_reference(self, chunk):
         file = self.file
         reference = read_reference(chunk.payload)
+        header = read_mesh_header(Reader(reference.mesh))
+        if header.vertex_count > MAX_VERTICES or header.face_count > MAX_FACES:
+            raise LimitExceeded("the mesh is too large")
         shots = list(file.references)
         require(reference.shot < file.shot_count and (not shots or reference.shot > shots[-1]), "REFM: wrong shot")
         require(file.frames_end() <= reference.first_frame < file.total_frames, "REFM: wrong first_frame")
@@ -334,18 +334,15 @@ class FileReader:
             starts = [r.first_frame for r in file.references.values()]
             require(reference.shot == len(shots) and reference.first_frame == file.frames_end() and
                     reference.first_frame not in starts, "REFM: shots are not consecutive")
-        header = read_mesh_header(Reader(reference.mesh))
-        if header.vertex_count > MAX_VERTICES or header.face_count > MAX_FACES:
-            raise LimitExceeded("the mesh is too large")
         file.references[reference.shot] = reference
         self.note(chunk, 0)
 
     def take_group(self, chunk):
         file = self.file
         group = read_group(chunk.payload)
-        require(group.first_frame + group.frame_count <= file.total_frames, "GRUP: past the end of the sequence")
-        if group.first_frame + group.frame_count > MAX_FRAMES:
+        if file.open_ended and group.first_frame + group.frame_count > MAX_FRAMES:
             raise LimitExceeded("too many frames")
+        require(group.first_frame + group.frame_count <= file.total_frames, "GRUP: past the end of the sequence")
         require(group.first_frame >= file.frames_end() and group.shot < file.shot_count, "GRUP: wrong place")
         require(not file.groups or group.shot >= file.groups[-1].shot, "GRUP: shots out of order")
         newest = max(file.references, default=-1)

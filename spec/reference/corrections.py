@@ -45,7 +45,7 @@ class Corrections:
         self.of_row = []  # {(t, axis): correction} of every row so far
         self.density = []
         self.frame_rate = [[1024] * 3 for _ in range(self.frames)]
-        self.active = adaptive_bits(12)
+        self.active = adaptive_bits(10)
         self.lengths = [adaptive_bits(53) for _ in range(4)]
         self.some = Mixer(SOME_TABLES, 3, 500)
         self.negative = Mixer(NEGATIVE_TABLES, 1, 500)
@@ -124,8 +124,8 @@ class Corrections:
         before, earlier = abs(self.s(t - 1, axis)), abs(self.s(t - 2, axis))
         other, another = self.recent
         near = self.near(t, axis)
-        around = min(7, (self.near(t - 1, axis) + self.near(t + 1, axis) + 1) // 2)
-        beside = min(7, (sum(self.near(t, b) for b in range(3) if b != axis) + 1) // 2)
+        around = (self.near(t - 1, axis) + self.near(t + 1, axis) + 1) // 2
+        beside = (sum(self.near(t, b) for b in range(3) if b != axis) + 1) // 2
         frame, own = rate_class(self.frame_rate[t][axis]), rate_class(self.row_rate)
         entries = (
             ((before * 3 + earlier) * 8 + near) * 3 + axis,

@@ -61,7 +61,7 @@ class Contexts:
 
     def __init__(self, s):
         def relative(x):
-            return min((x << 16) // s.step, 1 << 24)
+            return (x << 16) // s.step
 
         ring = relative(s.ring_mean)
         recent = relative(s.recent)
@@ -204,7 +204,7 @@ class Field:
 
     def note(self, r, n, step):
         """Section 5."""
-        magnitude = min((min(abs(n), 1 << 32) * step) >> 8, (1 << 24) - 1)
+        magnitude = min((abs(n) * step) >> 8, (1 << 24) - 1)
         self.magnitude[r] = magnitude
         self.recent += magnitude
         self.recent -= self.recent // 4

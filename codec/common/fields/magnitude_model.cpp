@@ -8,8 +8,6 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kMagnitudeCap = 1u << 24;  ///< keeps all context arithmetic within 32 bits
-
 /// Logarithmic class of a magnitude x (in 1/256): floor(scale / 4 * log2(1 + 4 x)), below
 /// `classes`.
 uint32_t log_class(uint32_t x, uint32_t classes, uint32_t scale) {
@@ -32,7 +30,7 @@ MagnitudeModel::Context MagnitudeModel::context(const Surroundings& s) {
   // (x << 16) / step, by a product where that is exact: x * inverse errs by less than 2^34 / step.
   const auto relative = [&s](uint64_t x) {
     if (x < 1u << 18) return static_cast<uint32_t>(x * s.inverse_step >> 34);
-    return static_cast<uint32_t>(std::min<uint64_t>((x << 16) / s.step, kMagnitudeCap));
+    return static_cast<uint32_t>((x << 16) / s.step);
   };
   const uint32_t ring = relative(s.ring_mean);
   const uint32_t recent = relative(s.recent);

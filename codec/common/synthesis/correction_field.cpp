@@ -108,8 +108,7 @@ CorrectionField::ZeroMixer::Prediction CorrectionField::predict_some(size_t at,
   const uint32_t other = size_of(own_[at - 1]);
   const uint32_t another = size_of(own_[at - 2]);
   const uint32_t near = near_class_[at];
-  const uint32_t around =
-      std::min<uint32_t>(kNearClasses - 1, (near_class_[at - 3] + near_class_[at + 3] + 1u) / 2);
+  const uint32_t around = (near_class_[at - 3] + near_class_[at + 3] + 1u) / 2;
   const uint32_t frame = rate_class(frame_rate_[at]);
   const uint32_t row = rate_class(row_rate_);
   const uint32_t same_frame =
@@ -117,9 +116,7 @@ CorrectionField::ZeroMixer::Prediction CorrectionField::predict_some(size_t at,
   return zero_.predict(
       {((before * 3 + earlier) * kNearClasses + near) * 3 + std::min(2u, axis),
        (near * kNearClasses + around) * 3 + before, frame * kRateClasses + row,
-       ((other * 3 + another) * kNearClasses + std::min(kNearClasses - 1, (same_frame + 1) / 2)) *
-               3 +
-           before,
+       ((other * 3 + another) * kNearClasses + (same_frame + 1) / 2) * 3 + before,
        row * kRateClasses + near_density_, (frame * kNearClasses + near) * 3 + before},
       std::min(2u, before + (near > 0 ? 1 : 0)));
 }
