@@ -9,7 +9,7 @@
 namespace reeb {
 namespace {
 
-constexpr size_t kMostHeaderBytes = 512;        // headers of meshes and groups are shorter
+constexpr size_t kMaxHeaderBytes = 512;         // headers of meshes and groups are shorter
 constexpr size_t kBlock = size_t{1} << 16;      // read at once to check a sum
 constexpr uint64_t kMetadataBytesPerByte = 48;  // memory of entries that are hardly there
 constexpr uint64_t kSeekBytesPerByte = 20;
@@ -67,7 +67,7 @@ ChunkResult ContainerParser::read(uint64_t offset, Chunk& chunk) {
   const bool all = read_whole_payload(chunk.type);
   if (all && !spend(chunk.payload_size).ok()) return result;  // `take` says so
   fetch(chunk.payload_offset,
-        all ? chunk.payload_size : std::min<uint64_t>(chunk.payload_size, kMostHeaderBytes),
+        all ? chunk.payload_size : std::min<uint64_t>(chunk.payload_size, kMaxHeaderBytes),
         chunk.payload);
   return result;
 }

@@ -11,7 +11,7 @@ namespace reeb {
 
 inline constexpr uint8_t kFormatVersion = 1;
 inline constexpr uint32_t kMaxGroupFrames = 65536;
-inline constexpr uint32_t kMostOpenGroups = 63;  ///< in a row, each continuing the one before
+inline constexpr uint32_t kMaxOpenGroups = 63;  ///< in a row, each continuing the one before
 inline constexpr uint32_t kMaxVertices = 1u << 25;
 inline constexpr uint64_t kMaxUint32 = std::numeric_limits<uint32_t>::max();
 
@@ -136,11 +136,11 @@ void describe(V& v, GroupHeader& h) {
           std::numeric_limits<float>::max());
   }
   if (h.profile == Profile::kThesis) {
-    constexpr double kLeast = std::numeric_limits<float>::denorm_min();
-    constexpr double kMost = std::numeric_limits<float>::max();
-    v.f32("axis_step_x", h.axis_step[0], kLeast, kMost);
-    v.f32("axis_step_y", h.axis_step[1], kLeast, kMost);
-    v.f32("axis_step_z", h.axis_step[2], kLeast, kMost);
+    constexpr double kMin = std::numeric_limits<float>::denorm_min();
+    constexpr double kMax = std::numeric_limits<float>::max();
+    v.f32("axis_step_x", h.axis_step[0], kMin, kMax);
+    v.f32("axis_step_y", h.axis_step[1], kMin, kMax);
+    v.f32("axis_step_z", h.axis_step[2], kMin, kMax);
   }
   if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
   v.flags("flags", h.flags,

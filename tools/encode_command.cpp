@@ -198,7 +198,7 @@ void add_coding_options(CLI::App& command, Options& o) {
                   "1 (quickest) to 9 (smallest): encoding time traded for rate; lossless, 1 to 3 "
                   "also decode "
                   "about four times as quick; default 5")
-      ->check(CLI::Range(kLeastEffort, kMostEffort).description(""))
+      ->check(CLI::Range(kMinEffort, kMaxEffort).description(""))
       ->type_name("N")
       ->group(group);
   command
@@ -207,7 +207,7 @@ void add_coding_options(CLI::App& command, Options& o) {
           "Groups in a row, 0 to 63, that may continue the group before: smaller, but a seek "
           "decodes the whole run; main profile only; default 0")
       ->excludes("--lossless")
-      ->check(CLI::Range(0u, kMostOpenGroups).description(""))
+      ->check(CLI::Range(0u, kMaxOpenGroups).description(""))
       ->type_name("N")
       ->group(group);
   command

@@ -74,7 +74,7 @@ void SequenceDecoder::decode_run(const ReferenceChunk& reference, const Run& run
     const size_t i = g - out.run.begin;
     const bool whole =
         g == run.begin ? !chunk.continues() : follows(chunk, container_.groups[g - 1]);
-    if (status.ok() && (!whole || g - run.begin > kMostOpenGroups))
+    if (status.ok() && (!whole || g - run.begin > kMaxOpenGroups))
       status = Status::corrupt("a group continues one that is not there");
     std::shared_ptr<const OpenGroup> group;
     if (status.ok())

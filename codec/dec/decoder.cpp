@@ -103,7 +103,7 @@ Status Decoder::Impl::make_request(size_t group, GroupRequest& request) const {
   const auto& groups = container.groups;
   size_t first = group;
   for (; groups[first].continues(); --first) {
-    if (group - first == kMostOpenGroups)
+    if (group - first == kMaxOpenGroups)
       return Status::corrupt("too many groups in a row continue each other");
     if (first == 0 || !follows(groups[first], groups[first - 1])) {
       return Status::corrupt(frame_name(groups[group].header.first_frame) +

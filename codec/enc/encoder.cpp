@@ -37,10 +37,10 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
     return Status::invalid("the target must be a number above 0");
   }
   if (options.group_length > kMaxGroupFrames) return Status::invalid("group_length is above 65536");
-  if (options.effort < kLeastEffort || options.effort > kMostEffort) {
+  if (options.effort < kMinEffort || options.effort > kMaxEffort) {
     return Status::invalid("effort is not within 1 to 9");
   }
-  if (options.open_groups > kMostOpenGroups) return Status::invalid("open_groups is above 63");
+  if (options.open_groups > kMaxOpenGroups) return Status::invalid("open_groups is above 63");
   if (options.open_groups > 0 && options.profile != Profile::kMain && !lossless) {
     return Status::invalid("open_groups needs the main profile");
   }
@@ -54,9 +54,9 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
 /// Keeps the smaller of a corrected encoding, which is in `out`, and a snapped one.
 Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
                    std::vector<uint8_t>& out, EncodeStats& stats) {
-  constexpr double kLeastRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
+  constexpr double kMinRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
   const double step = 2 * options.target_value;
-  if (options.profile != Profile::kMain || stats.bpvf < kLeastRate ||
+  if (options.profile != Profile::kMain || stats.bpvf < kMinRate ||
       !(step < static_cast<double>(kLargestPosition)))
     return {};
   std::vector<uint8_t> other;

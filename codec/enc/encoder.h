@@ -21,9 +21,9 @@ enum class Target {
   kLossless,  ///< every bit of every position; target_value, profile and regions do not matter
 };
 
-inline constexpr int kLeastEffort = 1;
+inline constexpr int kMinEffort = 1;
 inline constexpr int kDefaultEffort = 5;
-inline constexpr int kMostEffort = 9;
+inline constexpr int kMaxEffort = 9;
 
 struct EncodeOptions {
   Target target = Target::kKg;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace reeb::test;
 
-constexpr float kLeastStep = std::numeric_limits<float>::denorm_min();
+constexpr float kMinStep = std::numeric_limits<float>::denorm_min();
 constexpr int32_t kLargestEntry = std::numeric_limits<int32_t>::max() - 1;
 
 class Maker {
@@ -78,12 +78,12 @@ void add_extremes(Maker& m) {
   m.add("header_extremes", "Fields of headers at the ends of their ranges.", edges.finish());
 
   BuiltGroup g = plain_group(3, 2);
-  g.header.quantization_step = kLeastStep;
+  g.header.quantization_step = kMinStep;
   m.add("least_step", "The least quantization_step: subnormal factors.", build_file(mesh, g));
   g.header.quantization_step = 1e36f;
   m.add("large_step", "A large quantization_step.", build_file(mesh, g));
   BuiltGroup t = thesis_group(2);
-  t.header.axis_step[0] = kLeastStep;
+  t.header.axis_step[0] = kMinStep;
   t.header.axis_step[1] = 1e36f;
   m.add("thesis_steps", "Steps of the thesis profile far from each other.", build_file(mesh, t));
 }

@@ -270,9 +270,9 @@ Stream open_ended() {
     stream.bytes.insert(stream.bytes.end(), bytes.begin(), bytes.end());
     return true;
   });
-  constexpr uint32_t kMost = 0xFFFFFFFF;
+  constexpr uint32_t kMax = 0xFFFFFFFF;
   const SequenceHeader header = {
-      .total_frames = kMost, .shot_count = kMost, .flags = SequenceHeader::kOpenEnded};
+      .total_frames = kMax, .shot_count = kMax, .flags = SequenceHeader::kOpenEnded};
   Status status = encoder.begin(header, {});
   if (status.ok()) status = encoder.begin_shot(shot.connectivity);
   for (uint32_t t = 0; t < shot.frame_count && status.ok(); ++t)

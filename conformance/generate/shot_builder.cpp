@@ -58,8 +58,8 @@ Bytes code_lanes(LaneField field, uint32_t count, const Residuals& residuals) {
       const LaneGuess guess = field.guess(row);
       int32_t n[kRansLanes] = {};
       for (uint32_t l = 0; l < lanes; ++l) {
-        constexpr int64_t kMost = kRansMaxMagnitude;
-        n[l] = static_cast<int32_t>(std::clamp(residuals(k + l, row), -kMost, kMost));
+        constexpr int64_t kMax = kRansMaxMagnitude;
+        n[l] = static_cast<int32_t>(std::clamp(residuals(k + l, row), -kMax, kMax));
         coder.put(l, guess.cls[l], n[l]);
       }
       field.note(row, guess, n);

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   reeb::EncodeOptions options;
   options.target_value = 0.05;
   options.group_length = kGroupFrames;
-  options.effort = reeb::kLeastEffort;
+  options.effort = reeb::kMinEffort;
   if (std::string(argv[2]) == "fast") options.profile = reeb::Profile::kFast;
   std::vector<uint8_t> one, out;
   reeb::EncodeStats stats;

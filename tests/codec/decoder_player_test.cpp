@@ -350,7 +350,7 @@ TEST_CASE("memory is accounted for that decoding takes, and not much more", "[pl
       EncodeOptions options = quick_options();
       options.profile = profile;
       if (profile == Profile::kLossless) options.target = Target::kLossless;
-      options.effort = kLeastEffort;
+      options.effort = kMinEffort;
       const Bytes bytes = encode_or_fail(sequence_of({animate(shape, 3)}), options).bytes;
       INFO(shape.name << ", profile " << static_cast<int>(profile));
       std::vector<float> xyz(shape.positions.size());

@@ -140,7 +140,7 @@ TEST_CASE("no more groups continue each other than the format allows", "[open_gr
   Sequence sequence = sequence_of({animate(tetrahedron(), 66)});
   EncodeOptions options = quick_options();
   options.group_length = 1;
-  options.open_groups = kMostOpenGroups;
+  options.open_groups = kMaxOpenGroups;
   Bytes bytes = encode_or_fail(sequence, options).bytes;
   std::vector<float> xyz(12);
   CHECK(open(bytes)->decode_frame(63, xyz.data()).ok());

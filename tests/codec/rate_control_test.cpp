@@ -69,7 +69,7 @@ TEST_CASE("the fast profile meets its target too", "[rate_control]") {
 TEST_CASE("every effort meets its target, and more effort takes no more bytes", "[rate_control]") {
   const Sequence sequence = sequence_of({animate(torus(24, 15), 20)});
   size_t before = SIZE_MAX;
-  for (const int effort : {kLeastEffort, kDefaultEffort, kMostEffort}) {
+  for (const int effort : {kMinEffort, kDefaultEffort, kMaxEffort}) {
     EncodeOptions options = aim(Target::kKg, 0.1);
     options.effort = effort;
     options.regions = -1;

@@ -9,7 +9,7 @@ using namespace reeb;
 
 namespace {
 
-constexpr uint64_t kMostWhole = (uint64_t{1} << 56) - 1;
+constexpr uint64_t kMaxWhole = (uint64_t{1} << 56) - 1;
 
 using Intervals = std::vector<Interval>;
 
@@ -57,7 +57,7 @@ TEST_CASE("no intervals take no bytes", "[interval_coder]") {
 }
 
 TEST_CASE("one interval anywhere survives", "[interval_coder]") {
-  for (const uint64_t whole : {uint64_t{1}, uint64_t{2}, uint64_t{1000}, kMostWhole}) {
+  for (const uint64_t whole : {uint64_t{1}, uint64_t{2}, uint64_t{1000}, kMaxWhole}) {
     for (const uint64_t size : {uint64_t{1}, whole / 2, whole - 1, whole}) {
       for (const uint64_t below : {uint64_t{0}, (whole - size) / 2, whole - size}) {
         if (size == 0) continue;
@@ -180,7 +180,7 @@ TEST_CASE("any bytes decode to some intervals", "[interval_coder]") {
     IntervalDecoder decoder(bytes);
     size_t steps = 0;
     for (; !decoder.overrun() && steps < 100'000; ++steps) {
-      const uint64_t whole = random() % kMostWhole + 1;
+      const uint64_t whole = random() % kMaxWhole + 1;
       const uint64_t place = decoder.find(whole);
       REQUIRE(place < whole);
       decoder.code({place, 1, whole});

@@ -69,9 +69,9 @@ TEST_CASE("rANS gives back what was put", "[rans]") {
 }
 
 TEST_CASE("rANS carries the extremes", "[rans]") {
-  constexpr auto kMost = static_cast<int32_t>(kRansMaxMagnitude);
+  constexpr auto kMax = static_cast<int32_t>(kRansMaxMagnitude);
   std::vector<Item> items;
-  for (const int32_t n : {0, kMost, -kMost, 8, -8, 7, -7, 1 << 29}) items.push_back({0, 19, n});
+  for (const int32_t n : {0, kMax, -kMax, 8, -8, 7, -7, 1 << 29}) items.push_back({0, 19, n});
   check_decodes(encode(items), items);
   const std::vector<Item> alike(1000, Item{3, 0, -2});  // one symbol: no bits at all
   check_decodes(encode(alike), alike);

@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr uint32_t kMostFrames = 8;
+constexpr uint32_t kMaxFrames = 8;
 
 std::vector<float> decode(std::span<const uint8_t> bytes, bool backwards) {
   reeb::DecodeOptions options;
@@ -17,7 +17,7 @@ std::vector<float> decode(std::span<const uint8_t> bytes, bool backwards) {
       .max_vertices = 1024, .max_faces = 2048, .max_frames = 4096, .max_memory = 64u << 20};
   std::unique_ptr<reeb::Decoder> decoder;
   if (!reeb::Decoder::open(bytes, options, decoder).ok()) return {};
-  const uint32_t count = std::min(decoder->info().frame_count, kMostFrames);
+  const uint32_t count = std::min(decoder->info().frame_count, kMaxFrames);
   std::vector<std::vector<float>> frames(count);
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t frame = backwards ? count - 1 - i : i;

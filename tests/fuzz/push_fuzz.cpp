@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr uint32_t kMostFrames = 4;
+constexpr uint32_t kMaxFrames = 4;
 
 reeb::DecodeOptions options() {
   reeb::DecodeOptions out;
@@ -21,7 +21,7 @@ reeb::DecodeOptions options() {
 
 /// Bits of the first frames; empty where one does not decode.
 std::vector<std::vector<float>> frames_of(reeb::Decoder& decoder) {
-  std::vector<std::vector<float>> out(std::min(decoder.info().frame_count, kMostFrames));
+  std::vector<std::vector<float>> out(std::min(decoder.info().frame_count, kMaxFrames));
   for (uint32_t frame = 0; frame < out.size(); ++frame) {
     const reeb::Connectivity* connectivity = nullptr;
     if (!decoder.connectivity(frame, connectivity).ok()) continue;

@@ -18,7 +18,7 @@ constexpr uint32_t kBaseSize = 64;      ///< stop at this many vertices
 constexpr uint32_t kMaxValence = 9;     ///< of a removed vertex
 constexpr uint32_t kMinProgress = 200;  ///< stop when a level removes fewer than one in this many
 constexpr uint32_t kBaseNeighbours = 4;
-constexpr uint32_t kMostAround = 12;  ///< neighbours of a row: more gain little and take time
+constexpr uint32_t kMaxAround = 12;  ///< neighbours of a row: more gain little and take time
 
 constexpr uint32_t kNoTarget = UINT32_MAX;
 
@@ -146,7 +146,7 @@ class Contraction {
       once[once_count] = u;
       once_count += met < mark_ ? 1 : 0;
       row.neighbour[count] = u;
-      count += met == mark_ && count < kMostAround ? 1 : 0;
+      count += met == mark_ && count < kMaxAround ? 1 : 0;
       met_[u] = met < mark_ ? mark_ : mark_ + 1;
     };
     constexpr uint32_t kUsual = 8;
@@ -157,7 +157,7 @@ class Contraction {
     }
     for (uint32_t i = 0; i < once_count; ++i) {
       row.neighbour[count] = once[i];
-      count += met_[once[i]] == mark_ && count < kMostAround ? 1 : 0;
+      count += met_[once[i]] == mark_ && count < kMaxAround ? 1 : 0;
     }
     row.count = static_cast<uint8_t>(count);
     removed_.push_back(v);

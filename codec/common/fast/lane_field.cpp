@@ -86,10 +86,10 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
 
 // The more is known, the worse a row must have been predicted to be worth the time.
 void LaneField::learn() {
-  constexpr uint32_t kLeastHistory = 4;
+  constexpr uint32_t kMinHistory = 4;
   std::vector<uint32_t> badly;
   for (uint32_t r = 0; r < rows(); ++r) {
-    if (history_[r] >= kLeastHistory * blocks_) badly.push_back(r);
+    if (history_[r] >= kMinHistory * blocks_) badly.push_back(r);
   }
   LaneWeightTask task = {graph_.rows.data(), start_->points.data(), values_.data()};
   if (wary_) task.history = history_.data();

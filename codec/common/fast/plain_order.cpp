@@ -110,11 +110,11 @@ bool IndexGuesser::find(uint32_t symbol, uint32_t& index) const {
 }
 
 void IndexGuesser::note(uint32_t index) {
-  constexpr int32_t kMostMissed = 1 << 20;
+  constexpr int32_t kMaxMissed = 1 << 20;
   for (uint32_t i = 0; i < order_.size(); ++i) {
     const Whole difference = guess_[i] - static_cast<int32_t>(index);
     const Whole distance = difference < 0 ? -difference : difference;
-    const Whole missed = distance < kMostMissed ? distance : Whole{} + kMostMissed;
+    const Whole missed = distance < kMaxMissed ? distance : Whole{} + kMaxMissed;
     // The exponent and five bits of the fraction.
     const Reals size = __builtin_convertvector(missed + 1, Reals);
     const Whole log2 = (reinterpret_cast<Whole>(size) >> 18) - 127 * 32;

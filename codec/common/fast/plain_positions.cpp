@@ -24,8 +24,8 @@ Point stored(const Whole& from) {
   return out;
 }
 
-constexpr std::array<float, 2 * MeshWalk::kMostKnown + 1> make_shares() {
-  std::array<float, 2 * MeshWalk::kMostKnown + 1> out{};
+constexpr std::array<float, 2 * MeshWalk::kMaxKnown + 1> make_shares() {
+  std::array<float, 2 * MeshWalk::kMaxKnown + 1> out{};
   for (uint32_t i = 1; i < out.size(); ++i) out[i] = 1.0f / static_cast<float>(i);
   return out;
 }
@@ -79,11 +79,11 @@ PlainPositions::Guess PlainPositions::guess(uint32_t turn) const {
 }
 
 void PlainPositions::note(uint32_t turn, const Point& position, const Point& difference) {
-  constexpr int32_t kMostMagnitude = 255;
+  constexpr int32_t kMaxMagnitude = 255;
   points_[turn] = position;
   const Whole missed = load(difference);
   const Whole size = missed < 0 ? -missed : missed;
-  const Whole magnitude = size < kMostMagnitude ? size : Whole{} + kMostMagnitude;
+  const Whole magnitude = size < kMaxMagnitude ? size : Whole{} + kMaxMagnitude;
   const Whole running = load(running_);
   magnitudes_[turn] = stored(magnitude);
   running_ = stored(running + magnitude * 32 - (running >> 3));

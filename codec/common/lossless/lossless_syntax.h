@@ -18,8 +18,8 @@ double code_step(Raw& raw, double step) {
   const uint64_t low = raw.code(static_cast<uint32_t>(wanted), 32);
   const uint64_t high = raw.code(static_cast<uint32_t>(wanted >> 32), 32);
   const auto coded = std::bit_cast<double>(high << 32 | low);
-  constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
-  return coded >= std::numeric_limits<double>::min() && coded <= kMost ? coded : 0;
+  constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
+  return coded >= std::numeric_limits<double>::min() && coded <= kMax ? coded : 0;
 }
 
 /// Codes the set of every axis; false where a decoder meets none.

@@ -84,8 +84,8 @@ class NumberSet {
   /// floor(x / step + 1/2), within the ranks.
   int64_t nearest_multiple(double x) const {
     const double n = std::floor(x / step_ + 0.5);
-    constexpr auto kMost = static_cast<double>(kMultiplesEnd - 1);
-    return static_cast<int64_t>(n > kMost ? kMost : n < -kMost ? -kMost : n);
+    constexpr auto kMax = static_cast<double>(kMultiplesEnd - 1);
+    return static_cast<int64_t>(n > kMax ? kMax : n < -kMax ? -kMax : n);
   }
   uint64_t decimal_rank(double x) const;
   float decimal_number(uint64_t rank) const;

@@ -116,7 +116,7 @@ MeshWalk walk_mesh(uint32_t point_count, std::span<const uint32_t> triangles) {
     out.first.push_back(static_cast<uint32_t>(out.known.size()));
   };
   const auto known = [&](const std::vector<uint32_t>& turn_of, uint32_t a, uint32_t b) {
-    if (out.known.size() - out.first.back() == MeshWalk::kMostKnown) return;
+    if (out.known.size() - out.first.back() == MeshWalk::kMaxKnown) return;
     const std::span<const Corner> corners = fans[b];
     const auto end = corners.begin() + std::min(corners.size(), kSearched);
     const auto found =

@@ -24,9 +24,9 @@ struct KnownTriangle {
 struct MeshWalk {
   std::vector<uint32_t> order;       ///< the point of each turn, as of `position_order`
   std::vector<uint32_t> first;       ///< of each turn, its first in `known`; one more at the end
-  std::vector<KnownTriangle> known;  ///< at most kMostKnown a turn
+  std::vector<KnownTriangle> known;  ///< at most kMaxKnown a turn
 
-  static constexpr uint32_t kMostKnown = 16;
+  static constexpr uint32_t kMaxKnown = 16;
 
   uint32_t turns() const { return static_cast<uint32_t>(order.size()); }
   std::span<const KnownTriangle> triangles(uint32_t turn) const {

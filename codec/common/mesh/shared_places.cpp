@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// Places of the table that are looked at; a point that finds no room passes for a shared one, as
 /// do all that lie where it does. No mesh can make this slow.
-constexpr uint32_t kMostTries = 32;
+constexpr uint32_t kMaxTries = 32;
 
 uint32_t hash(const int32_t* xyz) {
   const uint64_t place = static_cast<uint64_t>(xyz[0]) << 32 | static_cast<uint64_t>(xyz[1]) << 16 |
@@ -29,7 +29,7 @@ std::vector<uint8_t> shared_places(std::span<const int32_t> grid) {
     const int32_t* const xyz = &grid[size_t{p} * 3];
     size_t at = hash(xyz) & mask;
     shared[p] = 1;
-    for (uint32_t tries = 0; tries < kMostTries; ++tries, at = (at + 1) & mask) {
+    for (uint32_t tries = 0; tries < kMaxTries; ++tries, at = (at + 1) & mask) {
       const uint32_t other = point_at[at];
       if (other == kNone) {
         point_at[at] = p;

@@ -21,7 +21,7 @@ constexpr uint32_t kMaxFaces = 256;
 constexpr uint32_t kMinProgress =
     200;  ///< stop when a level removes fewer than one vertex in this many
 
-constexpr size_t kMostFrom = 16;  ///< vertices whose neighbours are looked for together
+constexpr size_t kMaxFrom = 16;  ///< vertices whose neighbours are looked for together
 constexpr uint32_t kNoFace = UINT32_MAX;
 
 using Indices = std::vector<uint32_t>;
@@ -101,7 +101,7 @@ class Collapser {
       longest = std::max(longest, neighbours_.by_eights(v).size());
       for (const uint32_t u : neighbours_[v]) edges_[v] += points_.distance_q4(v, u);
     }
-    far_.resize(by_eights(kMostFrom * longest + 1));
+    far_.resize(by_eights(kMaxFrom * longest + 1));
   }
 
   /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
@@ -226,7 +226,7 @@ class Collapser {
     return (same(t[0], v) | same(t[1], v) | same(t[2], v)) != 0;
   }
 
-  /// Leaves in far_ the neighbours of `from`, at most kMostFrom, that are not marked, and marks
+  /// Leaves in far_ the neighbours of `from`, at most kMaxFrom, that are not marked, and marks
   /// them.
   void find_next_ring(std::span<const uint32_t> from) {
     const auto is_new = marker(stamp_);

@@ -14,8 +14,8 @@ constexpr uint32_t kMaxExtra = 10;   ///< neighbours beyond the ring
 constexpr uint32_t kEnough = 12;     ///< a row with fewer is completed by nearness in space
 constexpr uint32_t kLooseRing = 4;   ///< ring of a vertex that has none on the surface
 constexpr uint32_t kCoincident = 2;  ///< most vertices at the same place that join the ring
-constexpr double kLeastPrecision = 1 / 16.0;
-constexpr double kMostPrecision = 25;
+constexpr double kMinPrecision = 1 / 16.0;
+constexpr double kMaxPrecision = 25;
 
 /// The 16 bits of x spread to every third bit.
 uint64_t spread_bits(uint32_t x) {
@@ -180,7 +180,7 @@ void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uin
   for (uint32_t i = 0; i < row.count; ++i) {
     const double ratio = static_cast<double>(distance[i]) * row.ring / sum;
     const double precision = i < row.ring ? ratio : ratio * ratio;
-    row.precision[i] = static_cast<float>(std::clamp(precision, kLeastPrecision, kMostPrecision));
+    row.precision[i] = static_cast<float>(std::clamp(precision, kMinPrecision, kMaxPrecision));
   }
 }
 

@@ -95,16 +95,16 @@ inline ErrorModel::Reader ErrorModel::reader() const { return Reader(*this); }
 /// Adds up guesses of the kinds 0 .. kinds-1; see ErrorModel::observe for `memory`.
 class GuessMixture {
  public:
-  static constexpr size_t kMostGuesses = 256;
+  static constexpr size_t kMaxGuesses = 256;
 
   GuessMixture(uint32_t kinds, uint32_t memory) : memory_(memory), models_(kinds) {}
 
   void clear() { guesses_.clear(); }
 
-  /// Beyond kMostGuesses, guesses are ignored. `place` in 1/256; one step of the error model is 1/8
+  /// Beyond kMaxGuesses, guesses are ignored. `place` in 1/256; one step of the error model is 1/8
   /// of `scale`, which is in 1/256 too, 1 .. 2^24.
   void add(uint32_t kind, int64_t place, uint32_t scale) {
-    if (guesses_.size() == kMostGuesses) return;
+    if (guesses_.size() == kMaxGuesses) return;
     ErrorModel& model = models_[kind];
     guesses_.push_back({model.reader(), place, int64_t{(1u << 23) / scale}, &model});
   }

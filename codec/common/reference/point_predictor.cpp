@@ -11,7 +11,7 @@ namespace reeb {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr double kLeastScale = 0.3;   // grid steps; rounding alone makes about that
+constexpr double kMinScale = 0.3;     // grid steps; rounding alone makes about that
 constexpr double kOffSurface = 0.05;  // variance along the normal, that in the plane being 1
 
 // Kinds of guesses; each is kept apart by what is known around the vertex (see situation).
@@ -169,7 +169,7 @@ void PointPredictor::set_spread() {
     const double mean = sum_[i] / parallelograms_;
     sum += std::sqrt(std::max(square_sum_[i] / parallelograms_ - mean * mean, 0.0));
   }
-  spread_ = kLeastScale + 0.7 * sum / 3;
+  spread_ = kMinScale + 0.7 * sum / 3;
 }
 
 // Neighbours tell the plane better than the place in it: covariance I - (1 - kOffSurface) n n^T.
@@ -207,9 +207,9 @@ void PointPredictor::start(uint32_t point, std::span<const int32_t> grid) {
 
 // Errors of the neighbours, then also those of the axes before.
 double PointPredictor::scale(size_t axis) const {
-  const double of_neighbours = neighbour_error_ + kLeastScale;
+  const double of_neighbours = neighbour_error_ + kMinScale;
   if (axis == 0) return of_neighbours;
-  return std::max((2 * of_neighbours + axis_error_ / static_cast<double>(axis)) / 3, kLeastScale);
+  return std::max((2 * of_neighbours + axis_error_ / static_cast<double>(axis)) / 3, kMinScale);
 }
 
 uint32_t PointPredictor::likely(size_t axis) const {
@@ -232,7 +232,7 @@ void PointPredictor::guess(size_t axis, GuessMixture& out) const {
   add_guess(kind(kFittedBySpread), fitted_[axis], spread_, out);
   if (neighbour_count_ == 0) add_guess(kind(kLast), base_[axis], scale, out);
   for (const auto& place : twin_places_) {
-    add_guess(kSeam * 5 + (axis > 0 ? 1 : 0), place[axis], kLeastScale, out);
+    add_guess(kSeam * 5 + (axis > 0 ? 1 : 0), place[axis], kMinScale, out);
   }
   if (parallelograms_ == 0) return;
   double shift = 0;
@@ -251,7 +251,7 @@ void PointPredictor::learn(size_t axis, int32_t value) {
   for (size_t k = 0; k < axis; ++k) rest -= lower_[axis][k] * whitened_[k];
   whitened_[axis] = rest / lower_[axis][axis];
   // Outliers count little.
-  const double confidence = 1 / (kLeastScale + neighbour_error_ * neighbour_error_ + error * error);
+  const double confidence = 1 / (kMinScale + neighbour_error_ * neighbour_error_ + error * error);
   weights_[std::min(parallelograms_, 3u)].learn(features_[axis], value - base_[axis], confidence);
   drop_other_places(axis, value);
   if (axis == 2) finish();

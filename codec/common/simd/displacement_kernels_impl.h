@@ -11,7 +11,7 @@ namespace {
 constexpr double kKept = 507.0 / 512;       // of the normal equations, from frame to frame
 constexpr double kEnergyKept = 0.25;        // of the mean squared error
 constexpr double kInverseVariance = 0.125;  // of a weight, as far as its prior knows
-constexpr double kLeastRidge = 0x1p-34;     // relative to the trace
+constexpr double kMinRidge = 0x1p-34;       // relative to the trace
 constexpr double kTinyRidge = 1e-100;       // where nothing has moved yet
 constexpr double kLargestWeight = 64;
 
@@ -64,7 +64,7 @@ inline void solve_lanes(const DisplacementBatch& batch, uint32_t first, float* c
   Doubles trace{};
   for (uint32_t i = 0; i < n; ++i) trace += part(batch.matrix[packed(i, i)]);
   const Doubles by_error = part(batch.energy) * kInverseVariance;
-  const Doubles by_trace = trace * kLeastRidge;
+  const Doubles by_trace = trace * kMinRidge;
   const Doubles ridge = (by_error > by_trace ? by_error : by_trace) + kTinyRidge;
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j <= i; ++j) a[packed(i, j)] = part(batch.matrix[packed(i, j)]);

@@ -63,12 +63,12 @@ inline LanesU classify_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
 
 inline void note_vectors(LaneBlock& b, uint32_t row, uint32_t first, const LanesF& prediction,
                          const LanesI& n) {
-  constexpr int32_t kMostMagnitude = 255;
+  constexpr int32_t kMaxMagnitude = 255;
   const size_t at = size_t{row} * kRansLanes + first;
   const LanesF value = prediction + __builtin_convertvector(n, LanesF) * b.steps[row];
   std::memcpy(b.values + at, &value, sizeof value);
   const LanesI size = n < 0 ? -n : n;
-  const LanesI capped = size < kMostMagnitude ? size : LanesI{} + kMostMagnitude;
+  const LanesI capped = size < kMaxMagnitude ? size : LanesI{} + kMaxMagnitude;
   const auto magnitude = __builtin_convertvector(capped, Lanes16);
   std::memcpy(b.magnitudes + at, &magnitude, sizeof magnitude);
   LanesU running = load<LanesU>(b.running + first);

@@ -36,7 +36,7 @@ inline void eliminate(V* a, uint32_t first, uint32_t j, const V* scaled, const V
 template <uint32_t kSides, class V>
 inline void factorise(uint32_t n, V* a) {
   using Real = std::remove_reference_t<decltype(a[0][0])>;
-  constexpr auto kLeastPivot = static_cast<Real>(sizeof(Real) == 8 ? 0x1p-42 : 0x1p-20);
+  constexpr auto kMinPivot = static_cast<Real>(sizeof(Real) == 8 ? 0x1p-42 : 0x1p-20);
   constexpr uint32_t kTogetherRows = 4;
   const V zero{};
   const V one = zero + 1;
@@ -45,7 +45,7 @@ inline void factorise(uint32_t n, V* a) {
   for (uint32_t j = 0; j < n; ++j) {
     const V* own = a + packed(j, 0);
     V d = own[j];
-    const V floor = d * kLeastPivot;
+    const V floor = d * kMinPivot;
     for (uint32_t k = 0; k < j; ++k) {
       scaled[k] = own[k] * diagonal[k];
       d -= own[k] * scaled[k];

@@ -14,7 +14,7 @@ namespace {
 constexpr float kPlaneUnits = 64;      // of a narrow plane's integers, per quantization step
 constexpr double kBasisUnits = 32768;  // of a narrow basis vector's
 constexpr int64_t kMost16 = 32767;
-constexpr int64_t kMostSum = INT32_MAX;
+constexpr int64_t kMaxSum = INT32_MAX;
 constexpr uint32_t kFramesAtOnce = 16;  // while a tile is at hand
 
 /// Ties to even; |x| < 2^22.
@@ -59,7 +59,7 @@ ComponentSum::ComponentSum(Planes planes, const std::vector<std::vector<double>>
 void ComponentSum::choose_narrow(const Planes& planes,
                                  const std::vector<std::vector<double>>& basis) {
   wide_ = static_cast<uint32_t>(planes.size());
-  for (int64_t room = kMostSum; wide_ > 0; --wide_, ++narrow_) {
+  for (int64_t room = kMaxSum; wide_ > 0; --wide_, ++narrow_) {
     const int64_t size = largest_integer(planes[wide_ - 1]);
     const int64_t share = size <= kMost16 ? largest_integer(basis[wide_ - 1]) : 0;
     if (std::max(size, share) > kMost16 || size * share > room) break;

@@ -12,7 +12,7 @@ namespace reeb {
 
 namespace {
 
-constexpr double kMostSteps = 9007199254740991.0;  // 2^53 - 1
+constexpr double kMaxSteps = 9007199254740991.0;  // 2^53 - 1
 
 /// Chooses the correction of single coordinates.
 class Corrector {
@@ -32,7 +32,7 @@ class Corrector {
     const double distance = static_cast<double>(original) - static_cast<double>(base);
     const double steps = std::nearbyint(distance / step_);
     for (const double candidate : {steps, steps - 1, steps + 1}) {
-      if (!(std::abs(candidate) <= kMostSteps)) continue;
+      if (!(std::abs(candidate) <= kMaxSteps)) continue;
       const Correction c{static_cast<int64_t>(candidate), false, 0};
       if (within(original, c.apply(base, step_))) return c;
     }

@@ -14,8 +14,7 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kMostMotionComponents =
-    96;  ///< later ones carry no affine motion worth its bits
+constexpr uint32_t kMaxMotionComponents = 96;  ///< later ones carry no affine motion worth its bits
 
 }  // namespace
 
@@ -77,7 +76,7 @@ RatePoint TransformEncoder::expect(const SurfaceContext& surface, double q) {
 }
 
 Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) {
-  const uint32_t components = std::min(kMostMotionComponents, transform_.size());
+  const uint32_t components = std::min(kMaxMotionComponents, transform_.size());
   Eigen::MatrixXf out(surface.rows(), components);
   for (uint32_t k = 0; k < components; ++k) {
     const float* c = transform_.coefficients(k);

@@ -11,8 +11,8 @@ namespace reeb {
 namespace {
 
 constexpr size_t kSamples = 256;
-constexpr double kLeastGain = 0.5;      ///< bits per value that decimals must be sparser by
-constexpr size_t kMostStrangers = 512;  ///< one value in so many may lie outside the set
+constexpr double kMinGain = 0.5;       ///< bits per value that decimals must be sparser by
+constexpr size_t kMaxStrangers = 512;  ///< one value in so many may lie outside the set
 
 /// Digits and places of the shortest decimal that rounds to a number.
 struct Shape {
@@ -55,7 +55,7 @@ class Chooser {
   Chooser(const ExactFrames& frames, uint32_t axis) : frames_(frames), axis_(axis) {
     const size_t total = frames.stored_count() * (frames.stored(0).size() / 3);
     for (size_t i = 0; i < kSamples; ++i) samples_.push_back(value(total * i / kSamples));
-    strangers_allowed_ = total / kMostStrangers;
+    strangers_allowed_ = total / kMaxStrangers;
   }
 
   NumberSet choose() {
@@ -82,7 +82,7 @@ class Chooser {
     const NumberSet set(shape.digits, shape.decimals);
     double gain = 0;
     for (const float x : samples_) gain += gain_near(set, x);
-    return gain >= kLeastGain * static_cast<double>(samples_.size());
+    return gain >= kMinGain * static_cast<double>(samples_.size());
   }
 
   /// True where all but few values are of the set; else `shape` may be extended to one worth a try.

@@ -18,7 +18,7 @@ namespace reeb {
 namespace {
 
 constexpr uint64_t kGroupBytes = 64 << 20;  ///< of positions that a group holds, unless asked for
-constexpr uint32_t kLeastFrames = 16;       ///< of a group, however large they are
+constexpr uint32_t kMinFrames = 16;         ///< of a group, however large they are
 constexpr uint32_t kGridBits = 10;  ///< of the reference mesh, which serves prediction alone
 
 }  // namespace
@@ -88,7 +88,7 @@ bool StreamEncoder::Impl::group_full() const {
   const uint32_t count = frames.frame_count();
   if (options.group_length > 0) return count == options.group_length;
   const uint64_t held = frames.stored_count() * uint64_t{surface->rows()} * 3 * sizeof(float);
-  return count == kMaxGroupFrames || (count >= kLeastFrames && held >= kGroupBytes);
+  return count == kMaxGroupFrames || (count >= kMinFrames && held >= kGroupBytes);
 }
 
 Status StreamEncoder::Impl::close_group() {

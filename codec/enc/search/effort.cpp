@@ -6,7 +6,7 @@ namespace reeb {
 
 namespace {
 
-constexpr EffortPreset kPresets[kMostEffort] = {
+constexpr EffortPreset kPresets[kMaxEffort] = {
     {0.0, kMetTolerance, 0, 4, 0, false, false}, {0.0, kMetTolerance, 0, 5, 0, true, false},
     {0.2, kMetTolerance, 1, 6, 0, true, false},  {0.5, kMetTolerance, 1, 6, 0, true, false},
     {0.5, kMetTolerance, 2, 7, 0, true, false},  {0.5, 0.005, 2, 7, 1, true, false},
@@ -16,6 +16,6 @@ constexpr EffortPreset kPresets[kMostEffort] = {
 
 }  // namespace
 
-const EffortPreset& effort_preset(int effort) { return kPresets[effort - kLeastEffort]; }
+const EffortPreset& effort_preset(int effort) { return kPresets[effort - kMinEffort]; }
 
 }  // namespace reeb

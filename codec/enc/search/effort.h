@@ -20,7 +20,7 @@ struct EffortPreset {
   bool region_trials;  ///< the motion model is tried in the main profile too
 };
 
-/// `effort`: kLeastEffort .. kMostEffort.
+/// `effort`: kMinEffort .. kMaxEffort.
 const EffortPreset& effort_preset(int effort);
 
 }  // namespace reeb

@@ -11,7 +11,7 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kMostSamples = 4096;
+constexpr uint32_t kMaxSamples = 4096;
 constexpr uint32_t kActivities = 5;  ///< classes of a row's energy, a factor of 16 apart
 constexpr double kNoiseGain = 0.9;   ///< of a prediction: what it takes over of the errors of rows
                                      ///< that are an octave coarser
@@ -51,7 +51,7 @@ void RateModel::sort_samples(const SurfaceContext& surface) {
   const double mean = energy.mean();
   const uint32_t octaves = octave_of(graph.size()) + 1;
   bands_.resize(size_t{octaves} * kActivities);
-  const uint32_t stride = (graph.size() + kMostSamples - 1) / kMostSamples;
+  const uint32_t stride = (graph.size() + kMaxSamples - 1) / kMaxSamples;
   for (uint32_t row = 0; row < graph.size(); ++row) {
     const double e = energy[surface.input[row]];
     Band& band = bands_[octave_of(row) * kActivities + activity_of(e, mean)];

@@ -14,10 +14,10 @@ namespace reeb {
 namespace {
 
 constexpr double kGuessedPrecision =
-    2e-4;                          ///< of the extent: error expected where the target is a size
-constexpr double kAnyStep = 1e-6;  ///< where nothing moves
-constexpr double kMostSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
-constexpr double kNear = 0.1;           ///< of the target, where settings are compared
+    2e-4;                              ///< of the extent: error expected where the target is a size
+constexpr double kAnyStep = 1e-6;      ///< where nothing moves
+constexpr double kMaxSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
+constexpr double kNear = 0.1;          ///< of the target, where settings are compared
 // What an error measured in coefficients may fall short of the one of rounded positions; where that
 // does not do, a second search measures positions.
 constexpr double kRounding = 1.0005;
@@ -182,7 +182,7 @@ Status SequenceEncoder::polish() {
 double SequenceEncoder::least_step() const {
   double largest = 0;
   for (const auto& shot : shots_) largest = std::max(largest, shot->largest_coefficient());
-  return largest / kMostSteps;
+  return largest / kMaxSteps;
 }
 
 RatePoint SequenceEncoder::expect(double q) const {

@@ -11,8 +11,8 @@ namespace reeb {
 
 namespace {
 
-constexpr uint32_t kLeastBits = 9;
-constexpr uint32_t kMostBits = 16;
+constexpr uint32_t kMinBits = 9;
+constexpr uint32_t kMaxBits = 16;
 constexpr double kGroupOverhead = 8 * 60;  ///< bits of headers, checksums and the seek table
 // Weights need no finer reference than this; fitted to what trials chose on ten sequences.
 constexpr double kGridBase = 3.6;
@@ -92,11 +92,11 @@ Status ShotEncoder::set_grid(double error) {
 
 double ShotEncoder::best_grid_bits(double error) const {
   const double precision = error > 0 ? std::log2(longest_side() / error) : 0;
-  return std::clamp(kGridBase + kGridSlope * precision, double{kLeastBits}, double{kMostBits});
+  return std::clamp(kGridBase + kGridSlope * precision, double{kMinBits}, double{kMaxBits});
 }
 
 Status ShotEncoder::set_grid_bits(uint32_t bits) {
-  const uint32_t allowed = std::clamp(bits, kLeastBits, kMostBits);
+  const uint32_t allowed = std::clamp(bits, kMinBits, kMaxBits);
   if (allowed == grid_bits_) return {};
   if (allowed == spare_bits_) {
     std::swap(surface_, spare_);

@@ -97,12 +97,12 @@ TEST_CASE("more guesses than are counted change nothing", "[guess_mixture]") {
     for (uint32_t i = 0; i < 50; ++i) {
       mixture.clear();
       for (size_t k = 0; k < guesses; ++k)
-        mixture.add(k < GuessMixture::kMostGuesses ? 0 : 1, static_cast<int64_t>(k << 8), 256);
+        mixture.add(k < GuessMixture::kMaxGuesses ? 0 : 1, static_cast<int64_t>(k << 8), 256);
       mixture.code(coder, 7 * i, kCount, 0, 1);
     }
     return coder.finish();
   };
-  CHECK(code(GuessMixture::kMostGuesses) == code(100 * GuessMixture::kMostGuesses));
+  CHECK(code(GuessMixture::kMaxGuesses) == code(100 * GuessMixture::kMaxGuesses));
 }
 
 TEST_CASE("weights of an error model rise with the error and stay whole", "[guess_mixture]") {

@@ -13,7 +13,7 @@ using namespace reeb::test;
 
 namespace {
 
-constexpr int64_t kMostSteps = (int64_t{1} << 53) - 1;
+constexpr int64_t kMaxSteps = (int64_t{1} << 53) - 1;
 
 using Place = std::tuple<uint32_t, uint32_t, uint32_t>;  // row, frame, axis
 using Table = std::map<Place, Correction>;
@@ -69,14 +69,14 @@ TEST_CASE("corrections of every size come back", "[corrections]") {
       for (uint32_t row = 0; row < surface.graph.size(); ++row) {
         for (uint32_t i = 0; i < 3 * frames; ++i) {
           if (random() % 4 != 0) continue;
-          const auto size = static_cast<int64_t>((random() & kMostSteps) >> (random() % 53));
+          const auto size = static_cast<int64_t>((random() & kMaxSteps) >> (random() % 53));
           Correction c{random() % 2 == 0 ? size : -size, false, 0};
           if (random() % 9 == 0) c = {0, true, random() % 2 == 0 ? -0.0f : 1e-42f};
           if (!c.none()) table[{row, i / 3, i % 3}] = c;
         }
       }
-      table[{0, 0, 0}] = {kMostSteps, false, 0};
-      table[{0, 0, 1}] = {-kMostSteps, false, 0};
+      table[{0, 0, 0}] = {kMaxSteps, false, 0};
+      table[{0, 0, 1}] = {-kMaxSteps, false, 0};
       CHECK(same(decode(surface.graph, frames, encode(surface.graph, frames, table)), table));
     }
   }
@@ -107,7 +107,7 @@ TEST_CASE("damaged corrections end", "[corrections]") {
     for (uint8_t& b : bytes) b = static_cast<uint8_t>(random());
     for (const auto& [place, c] : decode(surface.graph, 8, bytes)) {
       CHECK(std::get<0>(place) < surface.graph.size());
-      CHECK(std::abs(c.steps) <= kMostSteps);
+      CHECK(std::abs(c.steps) <= kMaxSteps);
     }
   }
 }
