@@ -91,7 +91,7 @@ void describe(V& v, MeshHeader& h) {
 
 enum class Profile : uint8_t {
   kMain = 0,      ///< prediction weights learned while decoding
-  kFast = 1,      ///< prediction weights fixed by the reference
+  kFast = 1,      ///< prediction weights from the reference and from the first components
   kThesis = 2,    ///< no temporal transform: residual of the affine motion per frame and coordinate
   kLossless = 3,  ///< every bit of every position: frames one after another
 };
@@ -101,9 +101,11 @@ struct GroupHeader {
   static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
   static constexpr uint8_t kQuick = 4;      ///< lossless: the method that decodes quicker
   static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
-  static constexpr uint8_t kLoose = 8;  ///< main profile: weights may go far from what distances
-                                        ///< tell; fast profile: they are wary
-  uint32_t first_frame = 0;             ///< in the sequence
+  static constexpr uint8_t kWeakPrior = 8;  ///< main profile: weights may go far from what
+                                            ///< distances tell
+  static constexpr uint8_t kWary = kWeakPrior;  ///< fast profile: rows that were predicted badly
+                                                ///< change their weights the less
+  uint32_t first_frame = 0;                     ///< in the sequence
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;
@@ -119,7 +121,8 @@ struct GroupHeader {
   uint64_t correction_count = 0;  ///< where corrected: coordinates that are
   uint64_t correction_bytes = 0;
 
-  bool loose() const { return (flags & kLoose) != 0; }
+  bool weak_prior() const { return (flags & kWeakPrior) != 0; }
+  bool wary() const { return (flags & kWary) != 0; }
   bool operator==(const GroupHeader&) const = default;
 };
 
@@ -145,7 +148,7 @@ void describe(V& v, GroupHeader& h) {
   if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
   v.flags("flags", h.flags,
           lossless ? GroupHeader::kQuick
-                   : GroupHeader::kContinues | GroupHeader::kCorrected | GroupHeader::kLoose);
+                   : GroupHeader::kContinues | GroupHeader::kCorrected | GroupHeader::kWeakPrior);
   if (!lossless) v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);

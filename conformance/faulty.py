@@ -371,7 +371,7 @@ def add_headers(m):
              0, dict(component_count=5)),
             ("one_with_basis", "The same beside one with a basis.", 0, dict(basis=b"\1")),
             ("one_continues", "The same beside one that continues another profile.", 2, dict(flags=b"\1")),
-            ("one_is_loose", "The same beside one of loose weights.", 2, dict(flags=b"\x08"))):
+            ("one_is_weak", "The same beside one of a weak prior.", 2, dict(flags=b"\x08"))):
         m.add(name, "corrupt", sentence, mixed.edited(b"GRUP", which, **changes))
     exact = File(m.sound("lossless_shots"))
     m.add("one_lossless_of_none", "corrupt", "A lossless group of no coded frames; the others decode.",
@@ -424,9 +424,9 @@ def add_sections(m):
           flipped(chain.pack(), at[3] + 30))
     m.add("other_profile_continues", "corrupt", "A group continues one of another profile.",
           chain.edited(b"GRUP", 1, profile=b"\1"))
-    m.add("continues_loose", "corrupt", "A group that continues another has loose weights.",
+    m.add("continues_weak_prior", "corrupt", "A group that continues another has a weak prior.",
           chain.edited(b"GRUP", 1, flags=b"\x09"))
-    m.add("thesis_loose", "corrupt", "A group of the thesis profile has loose weights.",
+    m.add("thesis_weak_prior", "corrupt", "A group of the thesis profile has a weak prior.",
           File(m.sound("thesis")).edited(b"GRUP", flags=b"\x08"))
     m.add("thesis_continues", "corrupt", "A group of the thesis profile continues one.",
           File(m.sound("thesis")).edited(b"GRUP", flags=b"\1"))

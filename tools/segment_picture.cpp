@@ -14,7 +14,7 @@ constexpr double kGraphOpacity = 0.7;   ///< shines through the surface
 constexpr double kMargin = 1.06;
 constexpr int kMaxAspect = 4;  ///< of a tile, either way
 constexpr int kLineHeight = 26;
-constexpr uint32_t kMostNumbers = 100;
+constexpr uint32_t kMaxNumbers = 100;
 constexpr Colour kInk{30, 30, 34};
 constexpr Colour kPaper{255, 255, 255};
 
@@ -68,7 +68,7 @@ class SegmentPicture {
     paste_shrunk(tile, factor_, left, kLineHeight, out);
     draw_text("frame " + grouped(uint64_t{frame.frame} + 1), left + 8,
               (kLineHeight - kTextHeight) / 2, kInk, out);
-    if (region_count_ <= kMostNumbers) draw_numbers(frame, {centre, scale_}, left, out);
+    if (region_count_ <= kMaxNumbers) draw_numbers(frame, {centre, scale_}, left, out);
   }
 
   void draw_graph(const segmentation::SkeletonPose& skeleton, const Framing& framing,

@@ -40,8 +40,8 @@ Status check_header(const GroupHeader& h) {
     return Status::corrupt("a group continues another in a profile where none does");
   }
   const bool learns = h.profile == Profile::kMain || h.profile == Profile::kFast;
-  if (h.loose() && (!learns || continues)) {
-    return Status::corrupt("a group has loose weights, but does not start to learn any");
+  if (h.weak_prior() && (!learns || continues)) {
+    return Status::corrupt("a group has weights of a weak prior, but does not start to learn any");
   }
   if ((h.region_count == 0 && h.motion_bytes > 0) || (thesis && h.basis_bytes > 0)) {
     return Status::corrupt("a section is there that the group does not use");
@@ -67,7 +67,7 @@ Status start_group(const GroupChunk& chunk, const DecodedSurface& surface, unsig
   const Profile profile = chunk.header.profile;
   if (!chunk.continues()) {
     state = start_closed_group(surface.surface, GridPoints(surface.grid), profile,
-                               chunk.header.loose(), threads);
+                               chunk.header.weak_prior(), threads);
     return {};
   }
   if (state.coefficients != nullptr && state.profile == profile) return {};
@@ -150,7 +150,7 @@ Status decode_lane_planes(const GroupChunk& chunk, const DecodedSurface& surface
                           const StopToken& stop, std::vector<std::vector<float>>& planes) {
   LaneStart own;  // of a mesh that is not plain
   if (surface.lanes.empty()) own = lane_start(surface.surface, GridPoints(surface.grid));
-  LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own, chunk.header.loose());
+  LaneField field(surface.surface.graph, own.empty() ? surface.lanes : own, chunk.header.wary());
   return coefficient_status(
       decode_lane_field(chunk.coefficients, chunk.header.component_count, field, planes, stop),
       stop);

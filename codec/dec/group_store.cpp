@@ -7,7 +7,7 @@
 #include "codec/common/base/parallel.h"
 #include "codec/dec/group_memory.h"
 #include "codec/dec/guard.h"
-#include "codec/dec/reference_decoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
 
 namespace reeb {
 

@@ -41,8 +41,8 @@ EncodeOptions open_at(uint32_t group_length, uint32_t open_groups) {
   return o;
 }
 
-/// At an effort that tries loose weights, and with an error that makes them pay.
-EncodeOptions loose() {
+/// At an effort that tries a weak prior, and with an error that makes them pay.
+EncodeOptions weak_prior() {
   EncodeOptions o = open_at(10, 1);
   o.target_value = 0.01;
   o.effort = 6;
@@ -178,8 +178,8 @@ void add_groups(Maker& m) {
         with(at(0.2), Profile::kMain, 0, 1));
   m.add("open_groups", "Every group but the first continues the one before.", torus(10, 8), 14,
         open_at(4, 63));
-  m.add("loose_groups", "A group with loose weights, and one that continues it.", torus(24, 14), 20,
-        loose(), fold);
+  m.add("weak_prior_groups", "A group with a weak prior, and one that continues it.", torus(24, 14),
+        20, weak_prior(), fold);
   m.add("open_runs", "Runs of a group and one that continues it, with regions.", torus(14, 9), 12,
         with(open_at(3, 1), Profile::kMain, 3, 3), fold);
   m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,
@@ -206,7 +206,7 @@ void add_profiles(Maker& m) {
   m.add("main_regions", "Motion of six regions, blended.", torus(20, 12), 10,
         with(at(0.1), Profile::kMain, 6), fold);
   m.add("fast", "Fast profile.", torus(16, 11), 8, with(at(0.1), Profile::kFast));
-  m.add("fast_regions", "Fast profile with regions, two groups, open and loose parts.",
+  m.add("fast_regions", "Fast profile with regions, two groups, open and wary parts.",
         with_isolated(grid(16, 12), 4), 12, with(at(0.1), Profile::kFast, 4, 7), fold);
   m.add("bounded", "Every coordinate's error bounded by corrections.", torus(16, 11), 10,
         bounded(0.002), scatter);

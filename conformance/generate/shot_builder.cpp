@@ -15,7 +15,7 @@
 #include "codec/common/reference/position_syntax.h"
 #include "codec/common/reference/reference_syntax.h"
 #include "codec/common/synthesis/correction_field.h"
-#include "codec/dec/reference_decoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
 #include "entropy/range_coder.h"
 
 namespace reeb::conformance {
@@ -71,11 +71,11 @@ Bytes code_lanes(LaneField field, uint32_t count, const Residuals& residuals) {
 
 Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
   if (group.header.profile == Profile::kFast) {
-    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes, group.header.loose()),
+    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes, group.header.wary()),
                       group.header.component_count, group.coefficients);
   }
-  Field field(mesh.surface.graph, surface_field_options(group.header.profile, group.header.loose()),
-              1);
+  Field field(mesh.surface.graph,
+              surface_field_options(group.header.profile, group.header.weak_prior()), 1);
   field.learn_reference(GridPoints(mesh.grid), mesh.surface.order);
   BinaryEncoder coder;
   code_components(field, coder, group.header.component_count, group.coefficients);

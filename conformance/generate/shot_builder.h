@@ -13,7 +13,7 @@
 #include "codec/common/motion/motion_model.h"
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/synthesis/corrections.h"
-#include "codec/enc/reference/reference_encoder.h"
+#include "codec/enc/reference/reference_mesh_encoder.h"
 #include "conformance/generate/stream.h"
 
 namespace reeb::conformance {

@@ -8,7 +8,7 @@ from .errors import Corrupt, LimitExceeded, Truncated, Unsupported, require
 SIGNATURE = b"\x89REEB\r\n"
 UINT32 = (1 << 32) - 1
 MAIN, FAST, THESIS, LOSSLESS = 0, 1, 2, 3
-CONTINUES, CORRECTED, QUICK, LOOSE = 1, 2, 4, 8  # bits of a group's flags
+CONTINUES, CORRECTED, QUICK, WEAK_PRIOR = 1, 2, 4, 8  # bits of a group's flags
 OPEN_ENDED = 1  # bit of the sequence header's flags
 ORDER_KEPT, FACE_ORDER_KEPT, PLAIN = 1, 2, 4  # bits of a mesh's flags
 
@@ -152,7 +152,7 @@ def read_group(payload):
     if profile == THESIS:
         axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
     region_count = 0 if lossless else reader.uv("region_count", 0, UINT32)
-    flags = reader.flags("flags", QUICK if lossless else CONTINUES | CORRECTED | LOOSE)
+    flags = reader.flags("flags", QUICK if lossless else CONTINUES | CORRECTED | WEAK_PRIOR)
     group = Group(first_frame, frame_count, shot, profile, component_count, step, axis_step, region_count, flags)
     motion_bytes = 0 if lossless else reader.uv("motion_bytes", 0, UINT32)
     coefficient_bytes = reader.uv("coefficient_bytes", 0, UINT32)

@@ -7,7 +7,7 @@ from .container import MAIN, THESIS
 from .entropy import EVEN, Mixer, RangeDecoder, ShortBit, adaptive_bits
 from .errors import require
 from .surface import STEPS
-from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, LOOSE_WEIGHTS, RowWeights, WeightOptions, misses_to_solve
+from .weights import BASIS_WEIGHTS, COEFFICIENT_WEIGHTS, WEAK_PRIOR_WEIGHTS, RowWeights, WeightOptions, misses_to_solve
 
 
 @dataclass
@@ -23,13 +23,13 @@ COEFFICIENTS = {
     MAIN: FieldOptions(COEFFICIENT_WEIGHTS, True, True, 2.2, 0.2),
     THESIS: FieldOptions(COEFFICIENT_WEIGHTS, False, False),
 }
-LOOSE_COEFFICIENTS = FieldOptions(LOOSE_WEIGHTS, True, True, 2.2, 0.2)
+WEAK_PRIOR_COEFFICIENTS = FieldOptions(WEAK_PRIOR_WEIGHTS, True, True, 2.2, 0.2)
 BASIS = FieldOptions(BASIS_WEIGHTS, True, True, 0.5, 0.05)
 
 TABLE_CONTEXTS = (144, 24, 96, 144)
 BINS = 24
 NODES = 48
-WIDE = 10
+UNSURE = 10
 
 
 def classify(x, c, s):
@@ -73,7 +73,7 @@ class Contexts:
             classify(relative(s.extra_mean), 12, 6) * 12 + classify((ring + recent) // 2, 12, 6),
         )
         self.escape_class = classify(expected, 8, 3)
-        self.wide = self.tables[1] >= WIDE
+        self.unsure = self.tables[1] >= UNSURE
 
 
 class ResidualDecoder:
@@ -96,8 +96,8 @@ class ResidualDecoder:
                 return 0
             b = 1
         contexts = Contexts(surroundings)
-        if contexts.wide:
-            b = self.decode_wide(contexts)
+        if contexts.unsure:
+            b = self.decode_unsure(contexts)
         else:
             while b < BINS and self.decode_node(contexts, b):
                 b += 1
@@ -114,7 +114,7 @@ class ResidualDecoder:
     def decode_node(self, contexts, node):
         return self.mixer.decode(self.decoder, [context * NODES + node for context in contexts.tables], node)
 
-    def decode_wide(self, contexts):
+    def decode_unsure(self, contexts):
         b = 0
         while b < BINS and self.decode_node(contexts, BINS + b):
             b += 4

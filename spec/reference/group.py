@@ -1,10 +1,10 @@
 """README.md section 3: decoding of shots, groups and frames."""
 from . import fast
 from .arithmetic import sum32
-from .container import CONTINUES, FAST, LOOSE, LOSSLESS, MAIN, THESIS
+from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS, WEAK_PRIOR
 from .corrections import Corrections
 from .errors import Corrupt, require
-from .fields import BASIS, COEFFICIENTS, LOOSE_COEFFICIENTS, decode_field
+from .fields import BASIS, COEFFICIENTS, WEAK_PRIOR_COEFFICIENTS, decode_field
 from .lossless import LosslessGroup
 from .mesh import decode_mesh
 from .motion import Motion
@@ -39,8 +39,9 @@ def check_group(group):
         fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
-    may_be_loose = group.profile in (MAIN, FAST) and not group.flags & CONTINUES
-    require(may_be_loose or group.profile == LOSSLESS or not group.flags & LOOSE, "loose weights where none start")
+    may_be_weak = group.profile in (MAIN, FAST) and not group.flags & CONTINUES
+    require(may_be_weak or group.profile == LOSSLESS or not group.flags & WEAK_PRIOR,
+            "a weak prior where no weights start")
     unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
 
@@ -78,9 +79,9 @@ class DecodedGroup:
 
     def decode_coefficients(self, group, shot, before):
         if group.profile == FAST:
-            wary = group.flags & LOOSE != 0
+            wary = group.flags & WEAK_PRIOR != 0
             return fast.decode_coefficients(group.coefficients, shot.rows, group.component_count, shot.positions, wary)
-        options = LOOSE_COEFFICIENTS if group.flags & LOOSE else COEFFICIENTS[group.profile]
+        options = WEAK_PRIOR_COEFFICIENTS if group.flags & WEAK_PRIOR else COEFFICIENTS[group.profile]
         self.coefficients = decode_field(group.coefficients, shot.rows, group.component_count,
                                          options, shot.positions, before and before.coefficients)
         return self.coefficients.planes

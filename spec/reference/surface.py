@@ -144,15 +144,15 @@ def boundary_vertices(triangles):
 
 def complete_neighbours(v, ring, far, earlier, distances, is_boundary):
     """Section 2: adds near earlier vertices to ring and far where they are few."""
-    loose = not ring
-    if not (loose or is_boundary or len(ring) + len(far) < 12):
+    alone = not ring
+    if not (alone or is_boundary or len(ring) + len(far) < 12):
         return
     coincident = 0
     nearest = sorted(earlier, key=lambda u: (distances.d2(v, u), u))[:16]
     for u in nearest:
         if u in ring or u in far:
             continue
-        if loose and len(ring) < 4:
+        if alone and len(ring) < 4:
             ring.append(u)
         elif distances.d2(v, u) == 0 and coincident < 2:
             ring.insert(0, u)

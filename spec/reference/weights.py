@@ -12,7 +12,7 @@ class WeightOptions:
 
 
 COEFFICIENT_WEIGHTS = WeightOptions(1.4, 0.9, True)
-LOOSE_WEIGHTS = WeightOptions(2.4, 1.5, True)
+WEAK_PRIOR_WEIGHTS = WeightOptions(2.4, 1.5, True)
 BASIS_WEIGHTS = WeightOptions(0.5, 0.25, False)
 
 

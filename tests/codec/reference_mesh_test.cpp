@@ -7,8 +7,8 @@
 #include "bitstream/bytes.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
-#include "codec/dec/reference_decoder.h"
-#include "codec/enc/reference/reference_encoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
+#include "codec/enc/reference/reference_mesh_encoder.h"
 
 using namespace reeb;
 

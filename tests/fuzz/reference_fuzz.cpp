@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "codec/common/prediction/prediction_graph.h"
-#include "codec/dec/reference_decoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const reeb::Limits limits{

@@ -35,7 +35,7 @@ Vec3 area_normal(Face face, std::span<const float> positions) {
 }
 
 constexpr double kCreaseCosine = 0.77;  ///< faces that meet at more than 40 degrees keep their edge
-constexpr size_t kMostCreased =
+constexpr size_t kMaxCreased =
     100;  ///< faces around a vertex; where there are more, all are smooth
 
 /// Normals at the corners of faces: of all faces at the vertex that are not across a crease.
@@ -60,7 +60,7 @@ class CornerNormals {
   }
 
   Vec3 at(size_t face, uint32_t v) const {
-    if (first_[size_t{v} + 1] - first_[v] > kMostCreased) return sums_[v];
+    if (first_[size_t{v} + 1] - first_[v] > kMaxCreased) return sums_[v];
     const Vec3 own = normalized(areas_[face]);
     Vec3 sum;
     for (size_t i = first_[v]; i < first_[size_t{v} + 1]; ++i) {

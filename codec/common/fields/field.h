@@ -24,8 +24,8 @@ struct FieldOptions {
   bool adaptive = true;       ///< re-estimate weights; false keeps those of the reference
 };
 
-/// Options of the two fields of a group; `loose` as in its header.
-FieldOptions surface_field_options(Profile profile, bool loose = false);
+/// Options of the two fields of a group; `weak_prior` as in its header.
+FieldOptions surface_field_options(Profile profile, bool weak_prior = false);
 FieldOptions basis_field_options();
 
 /// Values are in units of the group's quantization step q.

@@ -17,8 +17,8 @@ struct GroupState {
   MagnitudeModel basis_contexts;
 };
 
-/// State of a group that starts from the reference mesh alone; `loose` as in its header.
+/// State of a group that starts from the reference mesh alone; `weak_prior` as in its header.
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              Profile profile, bool loose, unsigned threads);
+                              Profile profile, bool weak_prior, unsigned threads);
 
 }  // namespace reeb

@@ -43,7 +43,7 @@ MagnitudeModel::Context MagnitudeModel::context(const Surroundings& s) {
   Context c;
   c.table = {by_ring * kNodes, by_expected * kNodes, by_recent * kNodes, by_rest * kNodes};
   c.escape = log_class(expected, kEscapeClasses, 3);
-  c.wide = by_expected >= kWideClass;
+  c.unsure = by_expected >= kUnsureClass;
   return c;
 }
 

@@ -57,7 +57,7 @@ class MagnitudeModel {
   struct Context {
     std::array<uint32_t, kTables> table;
     uint32_t escape;
-    bool wide;  ///< much is expected, and little known of how much
+    bool unsure;  ///< much is expected, and little known of how much
   };
 
   /// Predictions for the decisions of one residual, made when first asked for.
@@ -68,14 +68,14 @@ class MagnitudeModel {
 
     uint32_t calm_class() const { return calm_; }
 
-    /// Finds a bucket: `decide(node, b)` tells whether it is beyond b. In unary; where it is wide,
-    /// by fours first.
+    /// Finds a bucket: `decide(node, b)` tells whether it is beyond b. In unary; where it is
+    /// unsure, by fours first.
     template <class Decide>
     uint32_t find(Decide decide) {
       const bool calm = calm_ < kCalmClasses;
       if (calm && !decide(kCalmNode, 0)) return 0;
       if (made_ == 0) context_ = context(around_);
-      if (context_.wide) return find_wide(decide);
+      if (context_.unsure) return find_unsure(decide);
       uint32_t b = calm ? 1 : 0;
       while (b < kBins && decide(b, b)) ++b;
       return b;
@@ -97,7 +97,7 @@ class MagnitudeModel {
 
    private:
     template <class Decide>
-    static uint32_t find_wide(Decide decide) {
+    static uint32_t find_unsure(Decide decide) {
       uint32_t four = 0;
       while (four < kBins && decide(kBins + four, four + 3)) four += 4;
       if (four == kBins) return kBins;
@@ -158,7 +158,7 @@ class MagnitudeModel {
 
   // Contexts of each table.
   static constexpr std::array<uint32_t, kTables> kContexts = {12 * 12, 24, 8 * 12, 12 * 12};
-  static constexpr uint32_t kWideClass = 10;  ///< of the 24 of table 1
+  static constexpr uint32_t kUnsureClass = 10;  ///< of the 24 of table 1
   static constexpr uint32_t kAdaptationLimit = 40;
 
   static Context context(const Surroundings& s);

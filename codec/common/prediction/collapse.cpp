@@ -209,7 +209,7 @@ class Collapser {
     const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_count_ ? 2 : 1;
     for (const uint32_t u : near()) {
       if (neighbours_[u].size() + near_count_ > kMaxMerged + 4) continue;
-      if (near_count_ <= 2) return u;  // a loose end, nothing to protect
+      if (near_count_ <= 2) return u;  // a dangling end, nothing to protect
       const std::span<const uint32_t> others = neighbours_.by_eights(u);
       const auto common =
           std::count_if(others.begin(), others.end(), [&](uint32_t w) { return marked(w); });

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kMaxExtra = 10;   ///< neighbours beyond the ring
 constexpr uint32_t kEnough = 12;     ///< a row with fewer is completed by nearness in space
-constexpr uint32_t kLooseRing = 4;   ///< ring of a vertex that has none on the surface
+constexpr uint32_t kAloneRing = 4;   ///< ring of a vertex that has none on the surface
 constexpr uint32_t kCoincident = 2;  ///< most vertices at the same place that join the ring
 constexpr double kMinPrecision = 1 / 16.0;
 constexpr double kMaxPrecision = 25;
@@ -123,12 +123,12 @@ class SurfaceGraphBuilder {
   }
 
   void complete(uint32_t v, EarlierNeighbours& nearest, Gathered& g) const {
-    const bool loose = g.ring.empty();
-    if (!loose && !boundary_[v] && g.size() >= kEnough) return;
+    const bool alone = g.ring.empty();
+    if (!alone && !boundary_[v] && g.size() >= kEnough) return;
     uint32_t coincident = 0;
     for (const uint32_t u : nearest.find(v, kMaxNeighbours)) {
       if (g.has(u)) continue;
-      if (loose && g.ring.size() < kLooseRing) {
+      if (alone && g.ring.size() < kAloneRing) {
         g.ring.push_back(u);
       } else if (points_.distance2(v, u) == 0 && coincident < kCoincident) {
         g.ring.push_front(u);

@@ -33,7 +33,7 @@ std::vector<Instant> dyadic_order(uint32_t frames) {
 }
 
 /// One time after another, each predicted from the two before it.
-std::vector<Instant> plain_order(uint32_t frames) {
+std::vector<Instant> sequential_order(uint32_t frames) {
   std::vector<Instant> out{{}};
   for (uint32_t t = 1; t < frames; ++t) {
     Instant at{t, {t - 1}, {}};
@@ -105,7 +105,7 @@ class TemporalGraphBuilder {
 
 TemporalGraph build_temporal_graph(uint32_t frames) {
   return TemporalGraphBuilder(frames).build(
-      uses(coding_tool::kBasisHierarchy) ? dyadic_order(frames) : plain_order(frames));
+      uses(coding_tool::kBasisHierarchy) ? dyadic_order(frames) : sequential_order(frames));
 }
 
 }  // namespace reeb

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kPlaneUnits = 64;      // of a narrow plane's integers, per quantization step
 constexpr double kBasisUnits = 32768;  // of a narrow basis vector's
-constexpr int64_t kMost16 = 32767;
+constexpr int64_t kMax16 = 32767;
 constexpr int64_t kMaxSum = INT32_MAX;
 constexpr uint32_t kFramesAtOnce = 16;  // while a tile is at hand
 
@@ -23,16 +23,16 @@ int32_t round_to_integer(float x) {
   return std::bit_cast<int32_t>(x + kRound) - std::bit_cast<int32_t>(kRound);
 }
 
-/// Largest magnitude among the rounded values, or more than kMost16.
+/// Largest magnitude among the rounded values, or more than kMax16.
 int64_t largest_integer(const std::vector<float>& plane) {
   const float largest = largest_magnitude(plane) * kPlaneUnits;
-  return largest < static_cast<float>(kMost16 + 1) ? round_to_integer(largest) : kMost16 + 1;
+  return largest < static_cast<float>(kMax16 + 1) ? round_to_integer(largest) : kMax16 + 1;
 }
 
 int64_t largest_integer(const std::vector<double>& basis) {
   double largest = 0;
   for (const double x : basis) {
-    if (!(std::abs(x) * kBasisUnits < static_cast<double>(kMost16 + 1))) return kMost16 + 1;
+    if (!(std::abs(x) * kBasisUnits < static_cast<double>(kMax16 + 1))) return kMax16 + 1;
     largest = std::max(largest, std::abs(x));
   }
   return std::llrint(largest * kBasisUnits);
@@ -61,8 +61,8 @@ void ComponentSum::choose_narrow(const Planes& planes,
   wide_ = static_cast<uint32_t>(planes.size());
   for (int64_t room = kMaxSum; wide_ > 0; --wide_, ++narrow_) {
     const int64_t size = largest_integer(planes[wide_ - 1]);
-    const int64_t share = size <= kMost16 ? largest_integer(basis[wide_ - 1]) : 0;
-    if (std::max(size, share) > kMost16 || size * share > room) break;
+    const int64_t share = size <= kMax16 ? largest_integer(basis[wide_ - 1]) : 0;
+    if (std::max(size, share) > kMax16 || size * share > room) break;
     room -= size * share;
   }
 }

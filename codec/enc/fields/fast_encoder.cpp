@@ -58,10 +58,10 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
   };
   const PredictionGraph& graph = surface.surface.graph;
   Planes planes = code_twice(
-      graph, [&] { return LaneField(graph, surface.lanes, loose_); }, kCoefficientLambda,
+      graph, [&] { return LaneField(graph, surface.lanes, weak_prior_); }, kCoefficientLambda,
       kMassExponent, code, out.coefficients);
   out.component_count = static_cast<uint32_t>(planes.size());
-  out.loose = loose_;
+  out.weak_prior = weak_prior_;
   return planes;
 }
 

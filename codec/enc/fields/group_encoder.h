@@ -15,7 +15,7 @@
 #include "codec/enc/fields/group_signal.h"
 #include "codec/enc/motion/motion_fit.h"
 #include "codec/enc/reference/surface_context.h"
-#include "codec/enc/search/laplacian.h"
+#include "codec/enc/search/laplace_source.h"
 
 namespace reeb {
 
@@ -25,7 +25,7 @@ struct CodedGroup {
   float axis_step[3] = {1, 1, 1};  ///< of the motion model and, in the thesis profile, the residual
   uint32_t component_count = 0;
   uint32_t region_count = 0;
-  bool loose = false;  ///< as in the header
+  bool weak_prior = false;  ///< as in the header
   std::vector<uint8_t> motion;
   std::vector<uint8_t> coefficients;
   std::vector<uint8_t> basis;
@@ -65,7 +65,7 @@ class GroupEncoder {
   void hold_components(std::optional<uint32_t> count) { held_count_ = count; }
 
   /// Lets weights go further from what distances tell. Without a meaning but in the main profile.
-  void set_loose(bool loose) { loose_ = loose; }
+  void set_weak_prior(bool weak_prior) { weak_prior_ = weak_prior; }
 
   const GroupSignal& signal() const { return signal_; }
 
@@ -74,7 +74,7 @@ class GroupEncoder {
 
   GroupSignal signal_;
   std::optional<uint32_t> held_count_;
-  bool loose_ = false;
+  bool weak_prior_ = false;
 };
 
 /// Fills the motion section and adds the motion to the planes.

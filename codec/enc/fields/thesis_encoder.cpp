@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "codec/enc/fields/field_encoder.h"
-#include "codec/enc/search/laplacian.h"
+#include "codec/enc/search/laplace_source.h"
 
 namespace reeb {
 
@@ -18,7 +18,7 @@ double slope_at(double step) { return step * step * std::log(2.0) / 6; }
 RatePoint ThesisEncoder::expect(const SurfaceContext&, double q) {
   const auto values = static_cast<double>(signal_.trajectories.size());
   const double scale = std::sqrt(signal_.energy / values / 2);
-  const RatePoint point = quantized_laplacian(scale, q);
+  const RatePoint point = quantized_laplace_source(scale, q);
   return {values * point.bits, std::min(signal_.energy, values * q * q / 12)};
 }
 
@@ -51,7 +51,7 @@ void ThesisEncoder::choose_steps(const Eigen::MatrixXf& targets, const MotionFit
   }
   const double count = static_cast<double>(targets.size()) / 3;
   for (int a = 0; a < 3; ++a) {
-    out.axis_step[a] = static_cast<float>(laplacian_step(spread[a] / count, slope_at(out.q)));
+    out.axis_step[a] = static_cast<float>(laplace_source_step(spread[a] / count, slope_at(out.q)));
   }
 }
 

@@ -90,8 +90,8 @@ GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext&
                                                            CodedGroup& out) {
   GroupState& state = run.state;
   if (!run.continues) {
-    state = start_closed_group(surface.surface, surface.points(), profile_, loose_, threads_);
-    out.loose = loose_;
+    state = start_closed_group(surface.surface, surface.points(), profile_, weak_prior_, threads_);
+    out.weak_prior = weak_prior_;
   }
   // Components that are coded and then dropped leave no trace in what the next group continues.
   std::unique_ptr<Field> copy;

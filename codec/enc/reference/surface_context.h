@@ -11,7 +11,7 @@
 #include "codec/common/fast/lane_weights.h"
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/reference/reference_mesh.h"
-#include "codec/enc/reference/reference_encoder.h"
+#include "codec/enc/reference/reference_mesh_encoder.h"
 
 namespace reeb {
 

@@ -102,7 +102,7 @@ RatePoint RateModel::component(uint32_t k, double q) {
     const double own = options_.residual_share * scale[i];
     const double b = std::sqrt(own * own + noise / 2);
     const double price = options_.lambda / (band.step * band.step * band.importance);
-    const RatePoint point = quantized_laplacian(b, step, dead_zone(b, step, price));
+    const RatePoint point = quantized_laplace_source(b, step, dead_zone(b, step, price));
     coarser[band.activity] = point.distortion;
     out.bits += options_.rate_share * band.rows * point.bits;
     out.distortion += band.rows * point.distortion;

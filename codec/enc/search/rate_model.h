@@ -1,5 +1,5 @@
 // What coding a group comes to at a quantization step, before it is coded: the residuals of some
-// rows, predicted from original values, stand for all of them as Laplacian sources.
+// rows, predicted from original values, stand for all of them as Laplace sources.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "codec/enc/fields/karhunen_loeve.h"
 #include "codec/enc/reference/surface_context.h"
-#include "codec/enc/search/laplacian.h"
+#include "codec/enc/search/laplace_source.h"
 
 namespace reeb {
 

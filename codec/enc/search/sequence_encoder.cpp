@@ -329,13 +329,13 @@ Status SequenceEncoder::choose_regions() {
   return {};
 }
 
-Status SequenceEncoder::choose_looseness() {
+Status SequenceEncoder::choose_prior() {
   const bool learns = options_.profile == Profile::kMain || options_.profile == Profile::kFast;
-  if (!learns || !effort_.loose_trial) return {};
-  for (auto& shot : shots_) shot->set_loose(true);
+  if (!learns || !effort_.weak_prior_trial) return {};
+  for (auto& shot : shots_) shot->set_weak_prior(true);
   bool kept = false;
   if (Status s = try_setting(kept); !s.ok()) return s;
-  for (auto& shot : shots_) shot->set_loose(kept);
+  for (auto& shot : shots_) shot->set_weak_prior(kept);
   return {};
 }
 
@@ -413,7 +413,7 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   if (Status s = refine_grids(); !s.ok()) return s;
   if (Status s = choose_meshes(); !s.ok()) return s;
   if (Status s = choose_regions(); !s.ok()) return s;
-  if (Status s = choose_looseness(); !s.ok()) return s;
+  if (Status s = choose_prior(); !s.ok()) return s;
   if (Status s = finish_search(); !s.ok()) return s;
   stats = this->stats();
   if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {

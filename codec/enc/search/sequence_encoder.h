@@ -67,7 +67,7 @@ class SequenceEncoder {
   Status refine_grids();
   Status choose_meshes();
   Status choose_regions();
-  Status choose_looseness();
+  Status choose_prior();
   /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
   Status try_setting(bool& kept);
 

@@ -183,8 +183,8 @@ RatePoint ShotEncoder::expect(double q) {
   return out;
 }
 
-void ShotEncoder::set_loose(bool loose) {
-  for (Group& group : groups_) group.encoder->set_loose(loose);
+void ShotEncoder::set_weak_prior(bool weak_prior) {
+  for (Group& group : groups_) group.encoder->set_weak_prior(weak_prior);
 }
 
 void ShotEncoder::hold_components(const std::vector<CodedGroup>& coded) {
@@ -235,7 +235,7 @@ Status ShotEncoder::write(uint32_t shot_index, const std::vector<CodedGroup>& co
     header.quantization_step = static_cast<float>(coded[i].q);
     header.region_count = coded[i].region_count;
     if (continues(static_cast<uint32_t>(i))) header.flags |= GroupHeader::kContinues;
-    if (coded[i].loose) header.flags |= GroupHeader::kLoose;
+    if (coded[i].weak_prior) header.flags |= GroupHeader::kWeakPrior;
     GroupSections sections{coded[i].motion, coded[i].coefficients, coded[i].basis, {}};
     if (const auto& c = coded[i].corrections; c.has_value()) {
       header.flags |= GroupHeader::kCorrected;

@@ -50,7 +50,7 @@ class ShotEncoder {
   void hold_components(const std::vector<CodedGroup>& coded);
 
   /// Lets weights go further from what distances tell.
-  void set_loose(bool loose);
+  void set_weak_prior(bool weak_prior);
 
   /// Encodes every group with quantization step q.
   std::vector<CodedGroup> encode(double q);

@@ -1,4 +1,4 @@
-// Rate and distortion of a uniformly quantized Laplacian source, in closed form.
+// Rate and distortion of a uniformly quantized Laplace source, in closed form.
 #pragma once
 
 namespace reeb {
@@ -10,10 +10,10 @@ struct RatePoint {
 
 /// Source of mean absolute value `scale` > 0, quantized to the nearest multiple of `step` > 0, but
 /// to 0 up to `threshold` (0.5 <= threshold < 1.5) steps.
-RatePoint quantized_laplacian(double scale, double step, double threshold = 0.5);
+RatePoint quantized_laplace_source(double scale, double step, double threshold = 0.5);
 
 /// Step that minimises distortion + slope * bits; the largest one tried where nothing is worth
 /// sending.
-double laplacian_step(double scale, double slope);
+double laplace_source_step(double scale, double slope);
 
 }  // namespace reeb

@@ -1,4 +1,4 @@
-#include "codec/enc/reference/reference_encoder.h"
+#include "codec/enc/reference/reference_mesh_encoder.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +17,7 @@
 #include "codec/common/reference/position_syntax.h"
 #include "codec/common/reference/reference_syntax.h"
 #include "codec/common/reference/vertex_order.h"
-#include "codec/dec/reference_decoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
 #include "codec/enc/reference/draco_connectivity_encoder.h"
 #include "codec/enc/reference/face_matching.h"
 #include "codec/enc/reference/face_set.h"

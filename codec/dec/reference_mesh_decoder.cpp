@@ -1,4 +1,4 @@
-#include "codec/dec/reference_decoder.h"
+#include "codec/dec/reference_mesh_decoder.h"
 
 #include <algorithm>
 #include <numeric>

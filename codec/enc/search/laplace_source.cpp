@@ -1,4 +1,4 @@
-#include "codec/enc/search/laplacian.h"
+#include "codec/enc/search/laplace_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 double bits_of(double p) { return p > 0 ? -p * std::log2(p) : 0; }
 }  // namespace
 
-RatePoint quantized_laplacian(double scale, double step, double threshold) {
+RatePoint quantized_laplace_source(double scale, double step, double threshold) {
   // Density exp(-|x| / b) / 2b. Level 1 covers (threshold, 3/2) steps, level n > 1 covers
   // (n - 1/2, n + 1/2) with probability p2 r^(n - 2) a side.
   const double b = std::max(scale, 1e-300);
@@ -36,13 +36,13 @@ RatePoint quantized_laplacian(double scale, double step, double threshold) {
   return out;
 }
 
-double laplacian_step(double scale, double slope) {
+double laplace_source_step(double scale, double slope) {
   const double middle = std::sqrt(6 * slope / std::log(2.0));  // best at high rate
   double best = middle;
   double best_cost = 1e300;
   for (int i = -20; i <= 40; ++i) {  // a sixteenth of an octave apart
     const double step = middle * std::exp2(i / 16.0);
-    const RatePoint point = quantized_laplacian(scale, step);
+    const RatePoint point = quantized_laplace_source(scale, step);
     const double cost = point.distortion + slope * point.bits;
     if (cost < best_cost) {
       best_cost = cost;
