@@ -98,6 +98,60 @@ void repeat(const float* rest, double time, double* xyz) {
 /// One half never moves.
 void wag(const float* rest, double time, double* xyz) { bend(rest, rest[0] > 0 ? time : 0, xyz); }
 
+/// To two decimals and back and forth, by a few steps that differ from vertex to vertex.
+void jitter(const float* rest, double time, double* xyz) {
+  for (int a = 0; a < 3; ++a) {
+    const double x = std::sin(83 * time + 5.1 * rest[0] + 7.3 * rest[1] + 3.7 * rest[2] + a);
+    xyz[a] = std::round(static_cast<double>(rest[a]) * 10 + std::fmod(x * 937, 3)) / 100;
+  }
+}
+
+/// To and fro between far and near, where any error of a weight shows.
+void swing(const float* rest, double time, double* xyz) {
+  const auto t = static_cast<int>(std::lround(time * 9));
+  for (int a = 0; a < 3; ++a) {
+    const double near = 1e-3 * static_cast<double>(rest[a]);
+    xyz[a] = t % 2 == 0 ? near : 1e6 * static_cast<double>(rest[(a + 1) % 3]);
+  }
+  if (rest[0] > 3.9f) xyz[0] += t;
+}
+
+/// Displacements that grow about 64 times from frame to frame.
+void burst(const float* rest, double time, double* xyz) {
+  const double growth = 63 + 2 * std::fmod(std::abs(static_cast<double>(rest[0] + rest[1])), 1.0);
+  for (int a = 0; a < 3; ++a)
+    xyz[a] = static_cast<double>(rest[a]) * (1 + 1e-6 * std::pow(growth, 5 * time));
+}
+
+/// Two digits at all powers of ten.
+void powers(const float* rest, double time, double* xyz) {
+  const auto i = static_cast<int>(std::lround(7 * rest[0] + 31 * rest[1] + 3 * time)) + 400;
+  for (int a = 0; a < 3; ++a)
+    xyz[a] = (i * (a + 3) % 90 + 10) * std::pow(10.0, i * (2 * a + 1) % 40 - 6) * (i % 2 - 0.5) * 2;
+}
+
+/// All vertices stay but those at the outer rim.
+void nearly_rest(const float* at, double time, double* xyz) {
+  rest(at, time, xyz);
+  if (at[0] > 3.9f) xyz[2] += time;
+}
+
+/// Stops and goes, vertex by vertex.
+void stop_and_go(const float* rest, double time, double* xyz) {
+  const double begin = std::fmod(std::abs(static_cast<double>(5 * rest[0] + 3 * rest[1])), 1.0);
+  const double steps = std::floor(4 * time + begin);
+  for (int a = 0; a < 3; ++a)
+    xyz[a] = static_cast<double>(rest[a]) + 0.37 * steps * steps * (a + 1);
+}
+
+/// One value that is no decimal among decimals.
+Sequence with_stranger(const Shape& shape, uint32_t frames) {
+  Sequence s = sequence_of({animate(shape, frames, bend_in_decimals)});
+  std::vector<float>& x = s.shots[0].positions;
+  for (uint32_t a = 0; a < 3; ++a) x[x.size() / 2 / 3 * 3 + a] = 1.2345678f + static_cast<float>(a);
+  return s;
+}
+
 Shape shuffled(const Shape& shape) {
   const uint32_t n = shape.connectivity.vertex_count;
   Shape out = shape;
@@ -251,6 +305,17 @@ void add_lossless(Maker& m) {
   m.add("lossless_quick", "The quick method.", torus(12, 8), 14, quick);
   m.add("lossless_quick_extremes", "The quick method on values far from each other.", grid(7, 6), 5,
         quick, leap);
+  m.add("lossless_stranger", "Decimals, and values among them that are none.",
+        with_stranger(torus(12, 8), 8), exact);
+  m.add("lossless_powers", "Two digits at all powers of ten.", torus(10, 6), 4, exact, powers);
+  m.add("lossless_jitter", "Steps of a few hundredths, to and fro.", torus(10, 6), 20, exact,
+        jitter);
+  m.add("lossless_swing", "To and fro between far and near.", torus(8, 5), 10, exact, swing);
+  m.add("lossless_burst", "Displacements that grow 64 times from frame to frame.", torus(8, 5), 6,
+        exact, burst);
+  m.add("lossless_rim", "All vertices stay but those at the rim.", torus(12, 10), 24, exact,
+        nearly_rest);
+  m.add("lossless_stop_and_go", "Vertices that stop and go.", torus(8, 6), 12, exact, stop_and_go);
   EncodeOptions reorder = exact;
   reorder.reorder = true;
   m.add("lossless_order_dropped", "Every bit, but in coding order.", grid(8, 7), 3, reorder);

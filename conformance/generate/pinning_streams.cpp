@@ -1,8 +1,11 @@
 // Streams of class *core* beside what the encoder makes of usual meshes: meshes at the bounds that
 // the specification sets, and sections of random bytes, which mean something in every context.
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <utility>
 
+#include "codec/dec/decoder.h"
 #include "conformance/generate/parts.h"
 #include "conformance/generate/stream.h"
 
@@ -112,6 +115,148 @@ Shape all_faces() {
   return s;
 }
 
+/// Seven or nine vertices, any two of which are in one triangle: none of them is ever taken out.
+void add_clump(Shape& s, uint32_t size) {
+  static const std::vector<std::array<uint32_t, 3>> kSeven = {
+      {0, 1, 3}, {1, 2, 4}, {2, 3, 5}, {3, 4, 6}, {4, 5, 0}, {5, 6, 1}, {6, 0, 2}};
+  static const std::vector<std::array<uint32_t, 3>> kNine = {
+      {0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {0, 3, 6}, {1, 4, 7}, {2, 5, 8},
+      {0, 4, 8}, {1, 5, 6}, {2, 3, 7}, {0, 5, 7}, {1, 3, 8}, {2, 4, 6}};
+  const uint32_t first = s.connectivity.vertex_count;
+  for (uint32_t i = 0; i < size; ++i) s.add_vertex(static_cast<float>(first / 40), 0, 0);
+  for (const auto& t : size == 7 ? kSeven : kNine)
+    s.add_face({first + t[0], first + t[1], first + t[2]});
+}
+
+/// Clumps beside a tetrahedron, which loses a vertex at a time.
+Bytes clumps(uint32_t of_seven, uint32_t of_nine) {
+  Shape s = tetrahedron();
+  for (uint32_t i = 0; i < of_seven; ++i) add_clump(s, 7);
+  for (uint32_t i = 0; i < of_nine; ++i) add_clump(s, 9);
+  return build_file(build_listed_mesh(s.connectivity, on_grid(s, 5)), plain_group(1, 1));
+}
+
+/// A fan whose middle has `spokes` triangles, with a ring of triangles around it.
+Shape wheel(uint32_t spokes) {
+  Shape s = hub(spokes);
+  for (uint32_t i = 0; i < spokes; ++i) {
+    const float* p = &s.positions[size_t{i + 1} * 3];
+    s.add_vertex(p[0] * 1.5f, p[1] * 1.5f, -1);
+  }
+  for (uint32_t i = 0; i < spokes; ++i) {
+    const uint32_t next = (i + 1) % spokes;
+    s.add_face({next + 1, i + 1, spokes + i + 1});
+    s.add_face({next + 1, spokes + i + 1, spokes + next + 1});
+  }
+  return s;
+}
+
+/// Triangles at one vertex, whose others are coded before it: first all of one end, then one more.
+Shape star(uint32_t triangles) {
+  Shape s{.name = "star", .connectivity = {}, .positions = {}};
+  for (uint32_t i = 0; i < 2 * triangles + 1; ++i)
+    s.add_vertex(static_cast<float>(i % 24), static_cast<float>(i / 24), 0);
+  for (uint32_t i = 0; i < triangles; ++i) s.add_face({2 * triangles, i, triangles + i});
+  return s;
+}
+
+void add_bounds(Maker& m) {
+  m.add("clumps_399", "Collapses that go on: one vertex of 400 is taken out.", clumps(54, 2));
+  m.add("clumps_400", "Collapses that stop: one vertex of 401 is taken out.", clumps(49, 6));
+  m.add("wheel", "A surface around a vertex of 257 triangles.",
+        build_file(mesh_of(wheel(257)), plain_group(1, 1)));
+  const Shape many = star(300);
+  m.add(
+      "star", "A vertex whose index has more than 256 guesses.",
+      build_file(build_listed_mesh(many.connectivity, on_grid(many, 5), true), plain_group(1, 1)));
+  m.add("many_points", "More loose vertices than are remembered.",
+        build_file(mesh_of(points_only(400), 3), plain_group(1, 1)));
+}
+
+/// As many bytes of a section as its stream decodes with, and not one more.
+void shorten(Bytes& section, const std::function<Bytes()>& file) {
+  const Bytes all = section;
+  size_t least = 0;
+  for (size_t most = all.size(); least < most;) {
+    const size_t middle = (least + most) / 2;
+    section.assign(all.begin(), all.begin() + static_cast<ptrdiff_t>(middle));
+    Sequence sequence;
+    if (decode_sequence(file(), {}, sequence).ok()) {
+      most = middle;
+    } else {
+      least = middle + 1;
+    }
+  }
+  section.assign(all.begin(), all.begin() + static_cast<ptrdiff_t>(least));
+}
+
+/// A group of random sections.
+BuiltGroup random_group(const BuiltMesh& mesh, uint32_t frames, uint32_t components,
+                        uint32_t seed) {
+  BuiltGroup g = plain_group(frames, components);
+  g.coefficients = g.basis = nullptr;
+  g.coefficient_section = random_bytes(seed, 4000);
+  g.basis_section = random_bytes(seed + 1, 12000);
+  shorten(g.coefficient_section, [&] { return build_file(mesh, g); });
+  shorten(g.basis_section, [&] { return build_file(mesh, g); });
+  return g;
+}
+
+void add_fields(Maker& m) {
+  const BuiltMesh mesh = mesh_of(torus(5, 4));
+  m.add("noise", "Random bytes for 110 components.",
+        build_file(mesh, random_group(mesh, 37, 110, 21)));
+  FileBuilder run({.total_frames = 45});
+  run.reference({}, mesh);
+  for (uint32_t i = 0; i < 3; ++i) {
+    BuiltGroup g = plain_group(15, 37 + 3 * i);
+    g.coefficients = g.basis = nullptr;
+    g.coefficient_section = random_bytes(31 + 2 * i, 300);
+    g.basis_section = random_bytes(32 + 2 * i, 700);
+    g.header.first_frame = 15 * i;
+    g.header.flags = i == 0 ? GroupHeader::kWeakPrior : GroupHeader::kContinues;
+    run.group(mesh, g);
+  }
+  m.add("noise_run", "Groups of random bytes, with a weak prior, that continue one another.", run.finish());
+  BuiltGroup thesis = thesis_group(12);
+  thesis.coefficients = nullptr;
+  thesis.coefficient_section = random_bytes(41, 1500);
+  shorten(thesis.coefficient_section, [&] { return build_file(mesh, thesis); });
+  m.add("thesis_noise", "Random bytes in the thesis profile.", build_file(mesh, thesis));
+  BuiltGroup wide = plain_group(2, 6);
+  wide.coefficients = [](uint32_t, uint32_t row) { return row == 0 ? 400 : 0; };
+  wide.basis = [](uint32_t k, uint32_t row) { return k > 0 && row < 3 ? 700 - 9 * int64_t{k} : 0; };
+  m.add("wide_sums", "Components that integers do not hold all of.",
+        build_file(mesh_of(tetrahedron()), wide));
+}
+
+void add_motion(Maker& m) {
+  const BuiltMesh mesh = mesh_of(torus(6, 5));
+  BuiltGroup many = plain_group(14, 40);
+  many.coefficients = none;
+  many.header.region_count = 5;
+  many.binding = [](uint32_t row) {
+    return RegionBinding{row / 7 % 5, row % 2 == 0 ? 0 : row % 5, row % 2 == 0 ? 0 : row % 8 + 1};
+  };
+  many.transform = [](uint32_t k, uint32_t b) {
+    if (k % 3 == 1) return MotionModel::Transform{};
+    const auto x = static_cast<int32_t>(k * 7 + b * 3);
+    return MotionModel::Transform{x % 5 - 2, x % 3, -(x % 7), x % 40};
+  };
+  m.add("many_motions", "Regions that move in most of 40 components.", build_file(mesh, many));
+  BuiltGroup wrap = thesis_group(6);
+  wrap.coefficients = none;
+  wrap.header.region_count = 3;
+  wrap.binding = many.binding;
+  wrap.binding = [](uint32_t row) { return RegionBinding{row % 3, 0, row % 2 == 0 ? 8u : 0u}; };
+  wrap.transform = [](uint32_t k, uint32_t b) {
+    const auto x = static_cast<int32_t>((k / 3 + 1) * 0x30000000u + b);
+    return MotionModel::Transform{x, -(x / 2), x / 3, x};
+  };
+  m.add("motion_wrap", "Transforms of the thesis profile that add up beyond 2^31.",
+        build_file(mesh, wrap));
+}
+
 void add_faces(Maker& m) {
   const Shape faces = all_faces();
   for (const bool plain : {false, true}) {
@@ -123,23 +268,32 @@ void add_faces(Maker& m) {
             plain ? build_fast(plain_group(1, 1), mesh) : build_file(mesh, plain_group(1, 1)));
     }
   }
+  m.add("faces_alone", "The same with the order of faces kept, and not that of vertices.",
+        build_file(with_face_section(keeping_faces(faces, false, 8), random_bytes(73, 120), true),
+                   plain_group(1, 1)));
 }
 
-BuiltGroup random_corrections(BuiltGroup g, const BuiltMesh& mesh, uint32_t seed) {
+/// Corrections of as many random bytes as there may be.
+Bytes random_corrections(BuiltGroup g, const BuiltMesh& mesh, uint32_t seed) {
   g.header.correction_step = 0.01;
-  set_correction_section(mesh, g, random_bytes(seed, 3000));
-  return g;
+  for (size_t size = 3000;; size = size * 15 / 16) {
+    BuiltGroup tried = g;
+    if (!set_correction_section(mesh, tried, random_bytes(seed, size))) break;
+    g = tried;
+  }
+  return build_file(mesh, g);
 }
 
 void add_corrections(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(9, 8));
   const BuiltMesh plain = plain_mesh_of(torus(9, 8));
   m.add("corrections_1", "Corrections of random bytes.",
-        build_file(mesh, random_corrections(plain_group(3, 1), mesh, 11)));
+        random_corrections(plain_group(3, 1), mesh, 11));
   m.add("corrections_2", "Corrections of random bytes, a single frame.",
-        build_file(mesh, random_corrections(plain_group(1, 1), mesh, 12)));
-  m.add("fast_corrections", "The same in the fast profile.",
-        build_fast(random_corrections(plain_group(2, 1), plain, 13), plain));
+        random_corrections(plain_group(1, 1), mesh, 12));
+  BuiltGroup fast = plain_group(2, 1);
+  fast.header.profile = Profile::kFast;
+  m.add("fast_corrections", "The same in the fast profile.", random_corrections(fast, plain, 13));
   BuiltGroup g = plain_group(5, 2);
   g.header.correction_step = 0.001;
   g.correction = scattered;
@@ -152,6 +306,9 @@ void add_corrections(Maker& m) {
 std::vector<Stream> pinning_streams() {
   Maker m;
   add_meshes(m);
+  add_bounds(m);
+  add_fields(m);
+  add_motion(m);
   add_faces(m);
   add_corrections(m);
   return m.streams;

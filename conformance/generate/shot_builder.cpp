@@ -14,6 +14,7 @@
 #include "codec/common/motion/motion_syntax.h"
 #include "codec/common/reference/position_syntax.h"
 #include "codec/common/reference/reference_syntax.h"
+#include "codec/common/reference/vertex_order.h"
 #include "codec/common/synthesis/correction_field.h"
 #include "codec/dec/reference_mesh_decoder.h"
 #include "entropy/range_coder.h"
@@ -109,6 +110,16 @@ Bytes code_motion(const BuiltMesh& mesh, const BuiltGroup& group) {
   return coder.finish();
 }
 
+/// The order of the coding vertices, which is that of the input.
+Bytes code_order_as_is(const MeshState& state) {
+  std::vector<uint32_t> index(state.vertex_count);
+  std::iota(index.begin(), index.end(), 0u);
+  IntervalEncoder coder;
+  const std::vector<uint32_t> triangles = collect_triangles(state);
+  require(code_vertex_order(coder, TriangleTopology(state.vertex_count, triangles), index));
+  return coder.finish();
+}
+
 /// Counts the corrections as it codes them.
 Bytes code_corrections(const BuiltMesh& mesh, BuiltGroup& group) {
   CorrectionField field(mesh.surface.graph, group.header.frame_count);
@@ -132,7 +143,8 @@ BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> 
   return finish_mesh(std::move(bytes));
 }
 
-BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid) {
+BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
+                            bool order_kept) {
   MeshState state;
   state.vertex_count = connectivity.vertex_count;
   state.face_count = static_cast<uint32_t>(connectivity.face_sizes.size());
@@ -142,19 +154,27 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   const TriangleTopology no_triangles(0, {});
   require(code_rest(coder, &no_triangles, state, std::numeric_limits<uint64_t>::max()));
   const Bytes rest = coder.finish();
-  const MeshHeader header = {state.vertex_count, state.face_count, 0, 0, rest.size(), 0};
+  const Bytes order = order_kept ? code_order_as_is(state) : Bytes{};
+  MeshHeader header = {.vertex_count = state.vertex_count, .face_count = state.face_count};
+  header.flags = order_kept ? MeshHeader::kOrderKept : 0;
+  header.rest_bytes = rest.size();
+  header.order_bytes = order.size();
   Bytes bytes;
   require(write_header(header, "mesh header", bytes));
   bytes.insert(bytes.end(), rest.begin(), rest.end());
+  bytes.insert(bytes.end(), order.begin(), order.end());
   return finish_mesh(std::move(bytes));
 }
 
-BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces) {
+BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces, bool order_dropped) {
   ByteReader in(mesh.bytes);
   MeshHeader header;
   require(read_header(in, "mesh header", header));
-  const size_t kept = in.remaining() - static_cast<size_t>(header.face_bytes);
-  const std::span<const uint8_t> sections = in.take(kept);
+  const uint64_t order_bytes = order_dropped ? header.order_bytes : 0;
+  const std::span<const uint8_t> sections =
+      in.take(in.remaining() - header.face_bytes - order_bytes);
+  if (order_dropped) header.flags &= static_cast<uint8_t>(~MeshHeader::kOrderKept);
+  header.order_bytes -= order_bytes;
   header.face_bytes = faces.size();
   Bytes bytes;
   require(write_header(header, "mesh header", bytes));
@@ -163,7 +183,7 @@ BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces) {
   return finish_mesh(std::move(bytes));
 }
 
-void set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes) {
+bool set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes) {
   CorrectionField field(mesh.surface.graph, group.header.frame_count);
   BinaryDecoder decoder(bytes);
   group.header.correction_count = 0;
@@ -173,9 +193,9 @@ void set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes byte
         ++group.header.correction_count;
         return std::isfinite(c.value);
       });
-  require(sound && !decoder.overrun() ? Status() : Status::corrupt("no correction section"));
   group.header.flags |= GroupHeader::kCorrected;
   group.correction_section = std::move(bytes);
+  return sound && !decoder.overrun();
 }
 
 void build_sections(const BuiltMesh& mesh, BuiltGroup& group) {

@@ -34,10 +34,12 @@ struct BuiltMesh {
 /// Grid positions in input order, [vertex][xyz].
 BuiltMesh build_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
                      const ReferenceOptions& options = {});
-/// The same with every face listed, none left to Draco.
-BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid);
-/// The mesh with other bytes for its section *faces*, which is there.
-BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces);
+/// The same with every face listed, none left to Draco; its order kept if wanted.
+BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const int32_t> grid,
+                            bool order_kept = false);
+/// The mesh with other bytes for its section *faces*, which is there; without that for the order of
+/// its vertices if wanted.
+BuiltMesh with_face_section(const BuiltMesh& mesh, const Bytes& faces, bool order_dropped = false);
 
 /// A group; its sections are made from the choices, unless they are there already.
 struct BuiltGroup {
@@ -50,8 +52,9 @@ struct BuiltGroup {
   Bytes motion_section, coefficient_section, basis_section, correction_section;
 };
 
-/// Takes the bytes for the group's correction section, and counts the corrections that they are.
-void set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes);
+/// Takes the bytes for the group's correction section, and counts the corrections that they are;
+/// false where they are no sound section.
+bool set_correction_section(const BuiltMesh& mesh, BuiltGroup& group, Bytes bytes);
 
 /// Makes the sections that are not there.
 void build_sections(const BuiltMesh& mesh, BuiltGroup& group);
