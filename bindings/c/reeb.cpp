@@ -163,32 +163,57 @@ reeb_decoder* create(const reeb_options& options) {
   return block == nullptr ? nullptr : new (block) reeb_decoder(options);
 }
 
-/// Makes a handle and has `open` fill it. Members of the options are checked here.
+/// Where a failed opening is told, since there will be no handle.
+class OpenReport {
+ public:
+  explicit OpenReport(const reeb_options& options) : options_(options) { copy(""); }
+
+  reeb_result failed(reeb_result result, const char* why) const {
+    if (options_.log != nullptr) options_.log(options_.log_user, REEB_LOG_ERROR, why);
+    copy(why);
+    return result;
+  }
+
+ private:
+  void copy(const char* text) const {
+    if (options_.message == nullptr || options_.message_size == 0) return;
+    const size_t count = std::min(options_.message_size - 1, std::strlen(text));
+    std::memcpy(options_.message, text, count);
+    options_.message[count] = '\0';
+  }
+
+  const reeb_options& options_;
+};
+
+/// Makes a handle and has `open` fill it. Members of the options are checked here. `wrong`: what is
+/// with the other arguments; NULL where nothing is.
 template <class Open>
-reeb_result open_with(const reeb_options* options, reeb_decoder** out, Open&& open) {
-  if (out == nullptr) return REEB_INVALID_ARGUMENT;
-  *out = nullptr;
+reeb_result open_with(const reeb_options* options, reeb_decoder** out, const char* wrong,
+                      Open&& open) {
+  if (out != nullptr) *out = nullptr;
   reeb_options own = {};
   if (options != nullptr && !adopt(options, own)) return REEB_INVALID_ARGUMENT;
+  const OpenReport report(own);
+  if (out == nullptr) wrong = "no place for the decoder";
   if (own.allocator.allocate == nullptr)
     own.allocator = {allocate_plainly, release_plainly, nullptr};
-  if (own.allocator.release == nullptr) return REEB_INVALID_ARGUMENT;
+  if (own.allocator.release == nullptr) wrong = "an allocator without release";
+  if (wrong != nullptr) return report.failed(REEB_INVALID_ARGUMENT, wrong);
   reeb_decoder* const handle = create(own);
-  if (handle == nullptr) return REEB_OUT_OF_MEMORY;
+  if (handle == nullptr) return report.failed(REEB_OUT_OF_MEMORY, "out of memory");
   Status status;
   try {
     status = open(handle->decode_options(), handle->decoder);
   } catch (const std::bad_alloc&) {
     status = Status::out_of_memory();
   }
-  const reeb_result result = handle->done(status);
-  if (result == REEB_OK) {
+  if (status.ok()) {
     handle->warn_of_damage();
     *out = handle;
-  } else {
-    destroy(handle);
+    return REEB_OK;
   }
-  return result;
+  destroy(handle);
+  return report.failed(static_cast<reeb_result>(status.code()), status.message().c_str());
 }
 
 /// Calls `function` with the info at rest; no info before the sequence header is there.
@@ -218,6 +243,18 @@ reeb_info describe(const reeb::StreamInfo& info) {
   return out;
 }
 
+/// One past the last frame that the groups of a shot hold.
+uint32_t end_of_shot(const reeb::StreamInfo& info, uint32_t shot) {
+  const uint32_t first = info.shots[shot].first_frame;
+  const uint32_t next =
+      shot + 1 < info.shots.size() ? info.shots[shot + 1].first_frame : UINT32_MAX;
+  uint32_t end = first;
+  for (const auto& g : info.groups) {
+    if (g.first_frame >= first && g.first_frame < next) end = g.first_frame + g.frame_count;
+  }
+  return end;
+}
+
 bool make_target(const reeb_target* in, reeb::FrameTarget& out) {
   reeb_target own = {};
   if (!adopt(in, own)) return false;
@@ -231,7 +268,7 @@ bool make_target(const reeb_target* in, reeb::FrameTarget& out) {
 
 }  // namespace
 
-const char* reeb_result_string(reeb_result result) {
+const char* reeb_result_string(int result) {
   switch (result) {
     case REEB_OK:
       return "ok";
@@ -274,22 +311,23 @@ reeb_result reeb_probe(const void* bytes, size_t size) {
 
 reeb_result reeb_open_memory(const void* bytes, size_t size, const reeb_options* options,
                              reeb_decoder** decoder) {
-  if (bytes == nullptr && size > 0) return REEB_INVALID_ARGUMENT;
-  return open_with(options, decoder, [&](const reeb::DecodeOptions& o, auto& out) {
+  const char* const wrong = bytes == nullptr && size > 0 ? "no bytes" : nullptr;
+  return open_with(options, decoder, wrong, [&](const reeb::DecodeOptions& o, auto& out) {
     return reeb::Decoder::open(std::span(static_cast<const uint8_t*>(bytes), size), o, out);
   });
 }
 
 reeb_result reeb_open_reader(const reeb_reader* reader, const reeb_options* options,
                              reeb_decoder** decoder) {
-  if (reader == nullptr || reader->read_at == nullptr) return REEB_INVALID_ARGUMENT;
-  return open_with(options, decoder, [&](const reeb::DecodeOptions& o, auto& out) {
-    return reeb::Decoder::open(std::make_unique<CallbackSource>(*reader), o, out);
-  });
+  const bool readable = reader != nullptr && reader->read_at != nullptr;
+  return open_with(options, decoder, readable ? nullptr : "no reader",
+                   [&](const reeb::DecodeOptions& o, auto& out) {
+                     return reeb::Decoder::open(std::make_unique<CallbackSource>(*reader), o, out);
+                   });
 }
 
 reeb_result reeb_open_push(const reeb_options* options, reeb_decoder** decoder) {
-  return open_with(options, decoder, [&](const reeb::DecodeOptions& o, auto& out) {
+  return open_with(options, decoder, nullptr, [&](const reeb::DecodeOptions& o, auto& out) {
     return reeb::Decoder::open_pushed(o, out);
   });
 }
@@ -321,8 +359,9 @@ reeb_result reeb_get_shot(reeb_decoder* d, uint32_t shot, reeb_shot* out) {
   return with_info(d, [&](const reeb::StreamInfo& info) {
     if (shot >= info.shots.size()) return REEB_INVALID_ARGUMENT;
     const auto& s = info.shots[shot];
-    return give(
-        {0, s.first_frame, s.frame_count, s.vertex_count, s.face_count, s.order_kept ? 1 : 0}, out);
+    return give({0, s.first_frame, s.frame_count, s.vertex_count, s.face_count,
+                 s.order_kept ? 1 : 0, end_of_shot(info, shot)},
+                out);
   });
 }
 

@@ -58,8 +58,8 @@ typedef enum reeb_result {
   REEB_NEED_MORE_DATA = 9    /**< the bytes pushed so far do not reach it */
 } reeb_result;
 
-/** A short English name of a result, never NULL. */
-REEB_API const char* reeb_result_string(reeb_result result);
+/** A short English name of a result, never NULL; "unknown result" for any other integer. */
+REEB_API const char* reeb_result_string(int result);
 
 /** Version of the library in use: major * 1000000 + minor * 1000 + patch. */
 REEB_API uint32_t reeb_version(void);
@@ -113,6 +113,11 @@ typedef struct reeb_options {
   /** NULL: nothing is said. Called by the thread whose call failed. */
   reeb_log log;
   void* log_user;
+  /** Why opening failed, when there is no decoder to ask: a sentence, cut to `message_size` bytes
+   * with its closing 0; empty after success. NULL: not wanted. Used during the opening call only.
+   */
+  char* message;
+  size_t message_size;
 } reeb_options;
 
 /** Looks at the first bytes of a file: REEB_OK where this library reads it, REEB_NEED_MORE_DATA for
@@ -172,10 +177,11 @@ REEB_API reeb_result reeb_get_info(reeb_decoder* decoder, reeb_info* info);
 typedef struct reeb_shot {
   size_t struct_size;
   uint32_t first_frame;
-  uint32_t frame_count;
+  uint32_t frame_count; /**< that can be decoded: fewer than its span where there are gaps */
   uint32_t vertex_count;
   uint32_t face_count;
-  int order_kept; /**< not 0: vertices come in the order of the file that was encoded */
+  int order_kept;     /**< not 0: vertices come in the order of the file that was encoded */
+  uint32_t end_frame; /**< one past its last frame that can be decoded */
 } reeb_shot;
 
 REEB_API reeb_result reeb_get_shot(reeb_decoder* decoder, uint32_t shot, reeb_shot* out);
@@ -261,7 +267,8 @@ typedef struct reeb_stats {
 REEB_API reeb_result reeb_get_stats(reeb_decoder* decoder, reeb_stats* stats);
 REEB_API void reeb_reset_stats(reeb_decoder* decoder);
 
-/** Copies a sentence about the last failed call on this decoder, of any thread, to `buffer`, cut to
+/** Copies a sentence about the last failed call on this decoder, of any thread (reeb_options has
+ * one about a failed opening), to `buffer`, cut to
  * `size` bytes with its closing 0; returns the length of all of it, 0 where no call failed. */
 REEB_API size_t reeb_get_message(reeb_decoder* decoder, char* buffer, size_t size);
 

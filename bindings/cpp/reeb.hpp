@@ -28,9 +28,25 @@ struct IndexView {
 };
 
 /** An open stream, closed at the end of its life. Calls but the opening ones need an open one;
- * threads as of reeb_decoder. */
+ * threads as of reeb_decoder, and nothing else runs while a stream is moved, swapped or closed. A
+ * moved-from stream is closed. */
 class Stream {
  public:
+  Stream() = default;
+  Stream(Stream&& other) noexcept = default;
+  /** What was open here closes, after the threads that use its reader have ended. */
+  Stream& operator=(Stream&& other) noexcept {
+    Stream taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+  void swap(Stream& other) noexcept {
+    read_at_.swap(other.read_at_);
+    decoder_.swap(other.decoder_);
+    open_message_.swap(other.open_message_);
+  }
+  friend void swap(Stream& a, Stream& b) noexcept { a.swap(b); }
+
   /** Copies `size` bytes from `offset` on; false where that fails. */
   using ReadAt = std::function<bool(uint64_t offset, void* buffer, size_t size)>;
 
@@ -44,18 +60,23 @@ class Stream {
   [[nodiscard]] reeb_result open_memory(const void* bytes, size_t size,
                                         const reeb_options& options = defaults()) {
     close();
-    return adopt([&](reeb_decoder** out) { return reeb_open_memory(bytes, size, &options, out); });
+    return adopt(options, [&](const reeb_options* o, reeb_decoder** out) {
+      return reeb_open_memory(bytes, size, o, out);
+    });
   }
   [[nodiscard]] reeb_result open_reader(uint64_t size, ReadAt read_at,
                                         const reeb_options& options = defaults()) {
     close();
     read_at_ = std::make_unique<ReadAt>(std::move(read_at));
-    const reeb_reader reader = {size, call_read_at, read_at_.get()};
-    return adopt([&](reeb_decoder** out) { return reeb_open_reader(&reader, &options, out); });
+    const reeb_reader reader = {size, *read_at_ ? call_read_at : nullptr, read_at_.get()};
+    return adopt(options, [&](const reeb_options* o, reeb_decoder** out) {
+      return reeb_open_reader(&reader, o, out);
+    });
   }
   [[nodiscard]] reeb_result open_push(const reeb_options& options = defaults()) {
     close();
-    return adopt([&](reeb_decoder** out) { return reeb_open_push(&options, out); });
+    return adopt(options,
+                 [](const reeb_options* o, reeb_decoder** out) { return reeb_open_push(o, out); });
   }
   [[nodiscard]] reeb_result push(const void* bytes, size_t size) {
     return reeb_push(get(), bytes, size);
@@ -114,8 +135,9 @@ class Stream {
   void set_loop(bool loop) { reeb_set_loop(get(), loop ? 1 : 0); }
   void cancel() { reeb_cancel(get()); }
   void reset_stats() { reeb_reset_stats(get()); }
-  /** About the last call that failed. */
+  /** About the last call that failed, the opening one included. */
   std::string message() const {
+    if (!decoder_) return open_message_;
     std::string text(reeb_get_message(get(), nullptr, 0), '\0');
     text.resize(std::min(text.size(), reeb_get_message(get(), text.data(), text.size() + 1)));
     return text;
@@ -131,10 +153,17 @@ class Stream {
   }
 
   template <class Open>
-  reeb_result adopt(Open&& open) {
+  reeb_result adopt(reeb_options options, Open&& open) {
+    char text[256] = "";
+    const bool own = options.message == nullptr;
+    if (own) {
+      options.message = text;
+      options.message_size = sizeof text;
+    }
     reeb_decoder* decoder = nullptr;
-    const reeb_result result = open(&decoder);
+    const reeb_result result = open(&options, &decoder);
     decoder_.reset(decoder);
+    open_message_ = own || options.message_size > 0 ? options.message : "";
     return result;
   }
 
@@ -161,6 +190,7 @@ class Stream {
 
   std::unique_ptr<ReadAt> read_at_;  // outlives the decoder
   std::unique_ptr<reeb_decoder, Close> decoder_;
+  std::string open_message_;
 };
 
 }  // namespace reeb

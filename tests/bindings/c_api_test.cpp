@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <climits>
 #include <cstring>
 #include <map>
 #include <random>
 #include <thread>
 
+#include "bitstream/container.h"
 #include "tests/bindings/streams.h"
 
 using namespace reeb::test;
@@ -101,10 +103,67 @@ TEST_CASE("the header works in plain C", "[c]") {
 
 TEST_CASE("every result has a name of its own", "[c]") {
   std::map<std::string, int> names;
-  for (int r = REEB_OK; r <= REEB_NEED_MORE_DATA; ++r)
-    ++names[reeb_result_string(static_cast<reeb_result>(r))];
+  for (int r = REEB_OK; r <= REEB_NEED_MORE_DATA; ++r) ++names[reeb_result_string(r)];
   CHECK(names.size() == 10);
-  CHECK(names.count(reeb_result_string(static_cast<reeb_result>(REEB_NEED_MORE_DATA + 1))) == 0);
+  for (const int none : {REEB_NEED_MORE_DATA + 1, -1, 16, INT_MAX, INT_MIN})
+    CHECK(std::string(reeb_result_string(none)) == "unknown result");
+}
+
+TEST_CASE("a failed opening tells why", "[c]") {
+  std::string logged;
+  char text[64];
+  reeb_options options = sized<reeb_options>();
+  options.log = [](void* user, reeb_log_level, const char* message) {
+    *static_cast<std::string*>(user) = message;
+  };
+  options.log_user = &logged;
+  options.message = text;
+  options.message_size = sizeof text;
+  const auto told = [&](reeb_result result, reeb_result wanted) {
+    CHECK(result == wanted);
+    CHECK(logged.substr(0, options.message_size - 1) == text);
+    return logged;
+  };
+  reeb_decoder* d = nullptr;
+  const Bytes& bytes = tiny_stream();
+  const reeb_reader broken = {bytes.size(), [](void*, uint64_t, void*, size_t) { return 1; },
+                              nullptr};
+  CHECK(told(reeb_open_memory("no such file", 12, &options, &d), REEB_CORRUPT) != "");
+  CHECK(told(reeb_open_memory(bytes.data(), 9, &options, &d), REEB_TRUNCATED) != "");
+  CHECK(told(reeb_open_memory(nullptr, 9, &options, &d), REEB_INVALID_ARGUMENT) == "no bytes");
+  CHECK(told(reeb_open_reader(nullptr, &options, &d), REEB_INVALID_ARGUMENT) == "no reader");
+  CHECK(told(reeb_open_push(&options, nullptr), REEB_INVALID_ARGUMENT) ==
+        "no place for the decoder");
+  CHECK_THAT(told(reeb_open_reader(&broken, &options, &d), REEB_IO), Catch::Contains("callback"));
+  options.message_size = 4;
+  CHECK(told(reeb_open_reader(nullptr, &options, &d), REEB_INVALID_ARGUMENT) == "no reader");
+  CHECK(std::string(text) == "no ");
+  options.message_size = 0;
+  CHECK(reeb_open_reader(nullptr, &options, &d) == REEB_INVALID_ARGUMENT);
+  options.message_size = sizeof text;
+  REQUIRE(reeb_open_push(&options, &d) == REEB_OK);
+  CHECK(std::string(text).empty());
+  reeb_close(d);
+}
+
+TEST_CASE("a shot with gaps tells its frames and its end", "[c]") {
+  // Groups of frames 0-2, 3-5 and 6-7; the first one is damaged.
+  Bytes bytes = tiny_stream();
+  reeb::ContainerReader container;
+  REQUIRE(container.parse(bytes, reeb::Limits()).ok());
+  const reeb::GroupChunk& first = container.groups[0];
+  bytes[first.offset + first.size / 2] ^= 1;
+  reeb_decoder* d = nullptr;
+  REQUIRE(reeb_open_memory(bytes.data(), bytes.size(), nullptr, &d) == REEB_OK);
+  reeb_shot shot = sized<reeb_shot>();
+  REQUIRE(reeb_get_shot(d, 0, &shot) == REEB_OK);
+  CHECK(shot.first_frame == 0);
+  CHECK(shot.frame_count == 3);
+  CHECK(shot.end_frame == 6);
+  REQUIRE(reeb_get_shot(d, 1, &shot) == REEB_OK);
+  CHECK(shot.frame_count == 2);
+  CHECK(shot.end_frame == 8);
+  reeb_close(d);
 }
 
 TEST_CASE("a probe knows a file by its first eight bytes", "[c]") {
