@@ -41,12 +41,17 @@ bool analyse(const Surface& surface, const Options& options, PieceResult& result
   const double area = total_area(surface);
   if (!(area > 0) || !std::isfinite(area)) return false;
   const Laplacian laplacian = build_laplacian(surface);
-  const Eigenpairs pairs = smallest_eigenpairs(laplacian, options.eigenpairs);
+  return analyse(surface, laplacian, smallest_eigenpairs(laplacian, options.eigenpairs), options,
+                 result);
+}
+
+bool analyse(const Surface& surface, const Laplacian& laplacian, const Eigenpairs& pairs,
+             const Options& options, PieceResult& result) {
   if (pairs.values.size() < 2 || !pairs.vectors.allFinite() || !(pairs.values[1] > 0)) return false;
   const Eigen::MatrixXd embedding =
       diffusion_embedding(pairs, options.diffusion_time / pairs.values[1]);
   result.features = feature_points(surface, embedding, options.feature_persistence,
-                                   options.feature_radius * std::sqrt(area));
+                                   options.feature_radius * std::sqrt(total_area(surface)));
   const Eigen::VectorXd f = distance_function(embedding, result.features);
   result.scalar.assign(f.begin(), f.end());
   const ReebGraph sweep = sweep_reeb_graph(surface, result.scalar);

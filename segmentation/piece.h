@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "segmentation/eigenpairs.h"
 #include "segmentation/graph_simplification.h"
 #include "segmentation/segmentation.h"
 #include "segmentation/surface.h"
@@ -26,5 +27,9 @@ PieceResult single_region(const Surface& surface);
 /// (no area, no spectrum). `options` are in range. May throw std::exception on numerical trouble in
 /// the eigensolver.
 bool analyse(const Surface& surface, const Options& options, PieceResult& result);
+
+/// The same with a spectrum at hand; `options.eigenpairs` has no say.
+bool analyse(const Surface& surface, const Laplacian& laplacian, const Eigenpairs& pairs,
+             const Options& options, PieceResult& result);
 
 }  // namespace reeb::segmentation

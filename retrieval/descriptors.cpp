@@ -1,0 +1,103 @@
+#include "retrieval/descriptors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reeb::retrieval {
+namespace {
+
+// Times in units of the area: a sphere's first eigenvalue is 8 pi / area.
+constexpr double kFirstTime = 0.0006, kTimeFactor = 1.7783;
+// Energies are logarithms of eigenvalues times the area: from about the first to the 55th.
+constexpr double kFirstEnergy = 2.3026, kLastEnergy = 6.5511, kEnergyWidth = 0.45;
+constexpr double kMinEigenvalue = 1e-6;  // times the area; below it the eigenvector is constant
+constexpr double kMinSignature = 1e-9;
+constexpr int kSources = 16;
+
+// Quantiles of log(sum_i filter(lambda_i area, scale) phi_i^2 area) for every scale.
+template <typename Filter>
+std::vector<double> filtered_quantiles(std::span<const PieceSpectrum> pieces, double area,
+                                       Filter filter) {
+  std::vector<double> all;
+  for (int s = 0; s < kScales; ++s) {
+    Weighted values;
+    for (const PieceSpectrum& piece : pieces) {
+      Eigen::VectorXd weights = piece.pairs.values * area;
+      for (double& w : weights) w = filter(w, s);
+      const Eigen::VectorXd sum = piece.pairs.vectors.array().square().matrix() * weights;
+      for (Eigen::Index v = 0; v < sum.size(); ++v)
+        values.emplace_back(std::log(std::max(sum[v] * area, kMinSignature)), piece.mass[v]);
+    }
+    const std::vector<double> levels = quantiles(std::move(values), kLevels);
+    all.insert(all.end(), levels.begin(), levels.end());
+  }
+  return all;
+}
+
+double energy(int scale) {
+  return kFirstEnergy + (kLastEnergy - kFirstEnergy) * scale / (kScales - 1);
+}
+
+double wave_filter(double lambda, int scale) {
+  if (lambda <= kMinEigenvalue) return 0;
+  const double distance = (energy(scale) - std::log(lambda)) / kEnergyWidth;
+  return std::exp(-0.5 * distance * distance);
+}
+
+}  // namespace
+
+std::vector<double> quantiles(Weighted values, int count) {
+  std::sort(values.begin(), values.end());
+  double total = 0;
+  for (const auto& [value, weight] : values) total += weight;
+  std::vector<double> levels(count, 0.0);
+  size_t at = 0;
+  double before = 0;
+  for (int i = 0; i < count && !values.empty(); ++i) {
+    const double wanted = total * (i + 0.5) / count;
+    while (at + 1 < values.size() && before + values[at].second < wanted)
+      before += values[at++].second;
+    levels[i] = values[at].first;
+  }
+  return levels;
+}
+
+std::vector<double> heat_quantiles(std::span<const PieceSpectrum> pieces, double area) {
+  return filtered_quantiles(pieces, area, [](double lambda, int s) {
+    return std::exp(-std::max(lambda, 0.0) * kFirstTime * std::pow(kTimeFactor, s));
+  });
+}
+
+std::vector<double> wave_quantiles(std::span<const PieceSpectrum> pieces, double area) {
+  std::array<double, kScales> total{};
+  for (const PieceSpectrum& piece : pieces) {
+    for (const double lambda : piece.pairs.values) {
+      for (int s = 0; s < kScales; ++s) total[s] += wave_filter(lambda * area, s);
+    }
+  }
+  return filtered_quantiles(pieces, area, [&](double lambda, int s) {
+    return total[s] > 0 ? wave_filter(lambda, s) / total[s] : 0;
+  });
+}
+
+Weighted straightness(const Surface& surface, const Eigen::VectorXd& mass) {
+  const auto farthest = [](const std::vector<double>& d) {
+    return static_cast<uint32_t>(std::max_element(d.begin(), d.end()) - d.begin());
+  };
+  uint32_t source = farthest(edge_distances(surface, 0, HUGE_VAL));
+  std::vector<double> nearest(surface.vertex_count(), HUGE_VAL);
+  Weighted values;
+  for (int i = 0; i < kSources; ++i) {
+    const std::vector<double> along = edge_distances(surface, source, HUGE_VAL);
+    for (uint32_t v = 0; v < along.size(); ++v) {
+      nearest[v] = std::min(nearest[v], along[v]);
+      if (along[v] > 0)
+        values.emplace_back((surface.points[v] - surface.points[source]).norm() / along[v],
+                            mass[v] * along[v]);
+    }
+    source = farthest(nearest);
+  }
+  return values;
+}
+
+}  // namespace reeb::retrieval
