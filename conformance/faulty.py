@@ -300,6 +300,14 @@ def add_containers(m):
     m.add("endless_table", "corrupt", "The seek table announces 2^62 entries.", file.pack(uv(1 << 62)))
     m.add("long_table", "corrupt", "Bytes behind the seek table's last entry.", file.pack(file.seek_table() + b"\0"))
     m.add("endless_metadata", "corrupt", "Metadata announces 2^62 entries.", file.inserted(1, b"meta", uv(1 << 62)))
+    for number, (text, sentence) in enumerate((
+            (b"\x80", "A byte that continues no letter."), (b"\xC1\xBF", "A letter of one byte in two."),
+            (b"\xE0\x9F\xBF", "A letter of two bytes in three."), (b"\xED\xA0\x80", "A surrogate."),
+            (b"\xF0\x8F\xBF\xBF", "A letter of three bytes in four."), (b"\xF4\x90\x80\x80", "A letter above U+10FFFF."),
+            (b"\xF5\x80\x80\x80", "A byte that starts no letter."), (b"\xC2", "A letter that breaks off."),
+            (b"\xE1\x80\xC0", "A letter that another breaks into."), (b"\xE1\x80\x7F", "The same from below."))):
+        m.add("text_%d" % (number + 1), "corrupt", sentence,
+              file.inserted(1, b"meta", b"\1\0" + uv(len(text)) + text))
     m.add("endless_text", "corrupt", "A key of 2^40 bytes.", file.inserted(1, b"meta", b"\1" + uv(1 << 40)))
 
 
@@ -350,6 +358,7 @@ def add_headers(m):
             ("no_group_frames", "A group of no frames.", dict(frame_count=0)),
             ("group_past_end", "A group past the end of the sequence.", dict(frame_count=16)),
             ("wrong_profile", "An unknown profile.", dict(profile=b"\x7F")),
+            ("next_profile", "The profile behind the last.", dict(profile=b"\4")),
             ("step_zero", "quantization_step 0.", dict(quantization_step=bytes(4))),
             ("step_not_a_number", "A quantization_step that is no number.", dict(quantization_step=nan)),
             ("group_flags", "A reserved bit of GRUP.", dict(flags=b"\x80")),

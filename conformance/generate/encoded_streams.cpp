@@ -248,6 +248,7 @@ void add_groups(Maker& m) {
   named.metadata = {{"name", "tetrahedron"}, {"unit", "cm"}, {"", "no key"}, {"empty", ""}};
   // Characters of two, three and four bytes, at the ends of what their first bytes can start.
   named.metadata["caf\u00e9"] = "\u0800\ud7ff\uff0d";
+  named.metadata["\u0080\u07ff\u0fff\ue000\uffff"] = "\x7F\U0003ffff\U00040000";
   named.metadata["\u20ac"] = "\U00010000\U0001f43e\U000e0041\U0010ffff";
   m.add("metadata", "Frame rate, start time and metadata with letters of one to four bytes.", named,
         at(0.2));

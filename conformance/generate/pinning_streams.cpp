@@ -111,6 +111,11 @@ Shape all_faces() {
                                          std::min<ptrdiff_t>(odd.face_sizes[f], 12)));
   }
   for (uint32_t v = 0; v < 4; ++v) s.add_face({v});
+  for (uint32_t f = 0; f < 30; ++f) {
+    std::vector<uint32_t> face;
+    for (uint32_t i = 0; i < 5 + f % 6; ++i) face.push_back((f * 7 + i * 3) % 20);
+    s.add_face(face);
+  }
   s.add_face({1, 3, 1, 3, 2});
   return s;
 }
@@ -160,6 +165,17 @@ Shape star(uint32_t triangles) {
   return s;
 }
 
+/// Grid positions of 16 bits, the corners of the grid among them.
+std::vector<int32_t> far_places(uint32_t vertices) {
+  const Bytes bytes = random_bytes(61, size_t{6} * vertices);
+  std::vector<int32_t> grid;
+  for (size_t i = 0; i < size_t{3} * vertices; ++i) {
+    const int32_t x = bytes[2 * i] << 8 | bytes[2 * i + 1];
+    grid.push_back(i < 6 ? static_cast<int32_t>(i % 2) * 65535 : x);
+  }
+  return grid;
+}
+
 void add_bounds(Maker& m) {
   m.add("clumps_399", "Collapses that go on: one vertex of 400 is taken out.", clumps(54, 2));
   m.add("clumps_400", "Collapses that stop: one vertex of 401 is taken out.", clumps(49, 6));
@@ -169,6 +185,12 @@ void add_bounds(Maker& m) {
   m.add(
       "star", "A vertex whose index has more than 256 guesses.",
       build_file(build_listed_mesh(many.connectivity, on_grid(many, 5), true), plain_group(1, 1)));
+  const Shape ring = torus(12, 9);
+  const std::vector<int32_t> far = far_places(ring.connectivity.vertex_count);
+  m.add("far_places", "Positions all over the grid.",
+        build_file(build_mesh(ring.connectivity, far), plain_group(2, 2)));
+  m.add("fast_far_places", "The same in the fast profile.",
+        build_fast(plain_group(2, 2), build_mesh(ring.connectivity, far, {.plain = true})));
   m.add("many_points", "More loose vertices than are remembered.",
         build_file(mesh_of(points_only(400), 3), plain_group(1, 1)));
 }
@@ -206,7 +228,7 @@ void add_fields(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(5, 4));
   m.add("noise", "Random bytes for 110 components.",
         build_file(mesh, random_group(mesh, 37, 110, 21)));
-  FileBuilder run({.total_frames = 45});
+  FileBuilder run({.total_frames = 45, .frame_rate = 30, .start_time = -0.5});
   run.reference({}, mesh);
   for (uint32_t i = 0; i < 3; ++i) {
     BuiltGroup g = plain_group(15, 37 + 3 * i);
@@ -217,7 +239,8 @@ void add_fields(Maker& m) {
     g.header.flags = i == 0 ? GroupHeader::kWeakPrior : GroupHeader::kContinues;
     run.group(mesh, g);
   }
-  m.add("noise_run", "Groups of random bytes, with a weak prior, that continue one another.", run.finish());
+  m.add("noise_run", "Groups of random bytes, with a weak prior, that continue one another.",
+        run.finish());
   BuiltGroup thesis = thesis_group(12);
   thesis.coefficients = nullptr;
   thesis.coefficient_section = random_bytes(41, 1500);
@@ -262,14 +285,14 @@ void add_faces(Maker& m) {
   for (const bool plain : {false, true}) {
     for (uint32_t seed = 1; seed < 3; ++seed) {
       const BuiltMesh mesh =
-          with_face_section(keeping_faces(faces, plain, 8), random_bytes(70 + seed, 120));
+          with_face_section(keeping_faces(faces, plain, 8), random_bytes(70 + seed, 180));
       const std::string name = std::string(plain ? "fast_" : "") + "faces_" + std::to_string(seed);
       m.add(name.c_str(), "Faces of all sizes in a random order, each from a random corner on.",
             plain ? build_fast(plain_group(1, 1), mesh) : build_file(mesh, plain_group(1, 1)));
     }
   }
   m.add("faces_alone", "The same with the order of faces kept, and not that of vertices.",
-        build_file(with_face_section(keeping_faces(faces, false, 8), random_bytes(73, 120), true),
+        build_file(with_face_section(keeping_faces(faces, false, 8), random_bytes(73, 180), true),
                    plain_group(1, 1)));
 }
 
@@ -294,6 +317,14 @@ void add_corrections(Maker& m) {
   BuiltGroup fast = plain_group(2, 1);
   fast.header.profile = Profile::kFast;
   m.add("fast_corrections", "The same in the fast profile.", random_corrections(fast, plain, 13));
+  const BuiltMesh large = mesh_of(torus(30, 20), 3);
+  BuiltGroup many = plain_group(1, 0);
+  many.header.correction_step = 0.01;
+  many.correction = [](uint32_t row, uint32_t, uint32_t axis) {
+    const uint32_t random = (row * 3 + axis) * 2654435761u >> 16 ^ row * 40503u;
+    return Correction{random % 7 < 2 ? 0 : random % 2 == 0 ? 1 : -1, false, 0};
+  };
+  m.add("many_corrections", "More corrections than contexts count.", build_file(large, many));
   BuiltGroup g = plain_group(5, 2);
   g.header.correction_step = 0.001;
   g.correction = scattered;
