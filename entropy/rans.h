@@ -30,8 +30,8 @@ constexpr uint32_t rans_symbol(int32_t n) {
   const auto magnitude = static_cast<uint32_t>(n < 0 ? -n : n);
   return 2 * RansBuckets::of(magnitude) - (n < 0 ? 1 : 0);
 }
-/// The integer of a symbol that has no raw bits.
-constexpr int32_t rans_integer(uint32_t symbol) {
+/// The integer of a symbol that has no raw bits. Inlined always, see RansDecoder.
+[[gnu::always_inline]] constexpr int32_t rans_integer(uint32_t symbol) {
   return static_cast<int32_t>(symbol >> 1) ^ -static_cast<int32_t>(symbol & 1);
 }
 constexpr uint32_t rans_symbol_bucket(uint32_t symbol) { return (symbol + 1) / 2; }
@@ -107,8 +107,7 @@ class RansDecoder {
     cursor_.at += low ? 1 : 0;
     cursor_.state[lane] = x;
     const uint32_t symbol = slot >> 24;
-    if (symbol > kRansLastSingle) return large(symbol);
-    return static_cast<int32_t>(symbol >> 1) ^ -static_cast<int32_t>(symbol & 1);
+    return symbol > kRansLastSingle ? large(symbol) : rans_integer(symbol);
   }
 
   /// The next integer; `n` is ignored.

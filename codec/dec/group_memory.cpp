@@ -2,7 +2,7 @@
 
 #include "codec/common/fields/field.h"
 #include "codec/common/motion/motion_model.h"
-#include "codec/common/simd/kernels.h"
+#include "codec/common/prediction/weight_kernels.h"
 #include "codec/common/synthesis/correction_field.h"
 #include "codec/dec/draco_connectivity.h"
 

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "codec/common/base/stop.h"
+#include "codec/common/fast/lane_kernels.h"
 #include "codec/common/fast/lane_weights.h"
 #include "codec/common/prediction/prediction_graph.h"
-#include "codec/common/simd/kernels.h"
+#include "codec/common/simd/instruction_set.h"
 #include "entropy/rans.h"
 
 namespace reeb {
@@ -40,14 +41,14 @@ class LaneField {
   /// Starts the next block.
   void begin_block();
   /// What the row's neighbours tell of the row.
-  LaneGuess guess(uint32_t row) const { return kernels_.guess_lanes(block_, row); }
+  LaneGuess guess(uint32_t row) const { return kernels_.guess(block_, row); }
   /// Takes the row's residuals, the guess being that of `guess`.
   void note(uint32_t row, const LaneGuess& guess, const int32_t* residuals) {
-    kernels_.note_lanes(block_, row, guess, residuals);
+    kernels_.note(block_, row, guess, residuals);
   }
   /// All rows of a block at once, `lanes` components of them.
   void decode_rows(RansDecoder& decoder, uint32_t lanes) {
-    kernels_.decode_lanes(block_, decoder, lanes);
+    kernels_.decode(block_, decoder, lanes);
   }
   /// Ends the block and appends its first `lanes` components.
   void end_block(uint32_t lanes, Planes& planes);
@@ -64,7 +65,7 @@ class LaneField {
   const PredictionGraph& graph_;
   const LaneStart* start_ = nullptr;  ///< where weights are learned
   bool wary_ = false;
-  Kernels kernels_ = fastest_kernels();
+  LaneKernels kernels_ = fastest_kernels<LaneKernels>();
   std::vector<float> steps_;
   std::vector<float> weights_;  ///< once any are learned
   std::vector<float> values_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "codec/common/simd/instruction_set.h"
+
 namespace reeb {
 
 LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points) {
@@ -22,7 +24,7 @@ LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points) {
 
 void learn_weights(const LaneWeightTask& task, std::span<const uint32_t> rows,
                    std::vector<float>& weights) {
-  const Kernels kernels = fastest_kernels();
+  const LaneWeightKernels& kernels = fastest_kernels<LaneWeightKernels>();
   for (size_t first = 0; first < rows.size(); first += kWeightRows) {
     uint32_t row[kWeightRows];
     float* out[kWeightRows];
@@ -30,7 +32,7 @@ void learn_weights(const LaneWeightTask& task, std::span<const uint32_t> rows,
       row[l] = rows[std::min(first + l, rows.size() - 1)];  // past the end, the last once more
       out[l] = &weights[size_t{row[l]} * kMaxNeighbours];
     }
-    kernels.learn_lanes(task, row, out);
+    kernels.learn(task, row, out);
   }
 }
 

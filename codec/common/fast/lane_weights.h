@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "codec/common/fast/lane_weight_kernels.h"
 #include "codec/common/mesh/grid.h"
 #include "codec/common/prediction/prediction_graph.h"
-#include "codec/common/simd/kernels.h"
 
 namespace reeb {
 

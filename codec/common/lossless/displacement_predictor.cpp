@@ -4,13 +4,14 @@
 
 #include "codec/common/base/batches.h"
 #include "codec/common/base/parallel.h"
-#include "codec/common/simd/displacement_kernels.h"
+#include "codec/common/lossless/displacement_kernels.h"
+#include "codec/common/simd/instruction_set.h"
 
 namespace reeb {
 
 struct DisplacementPredictor::Batches {
   BatchVector<DisplacementBatch> items;
-  DisplacementKernels kernels = fastest_displacement_kernels();
+  DisplacementKernels kernels = fastest_kernels<DisplacementKernels>();
 };
 
 namespace {
@@ -19,19 +20,19 @@ constexpr double kAloneWeight = 0.8;  ///< of the last displacement where there 
 constexpr uint32_t kFirstFrames = 8;  ///< that are all learned from
 constexpr float kFarthest = 1e37f;    ///< displacements are cut there: sums stay finite
 
-void init_lane(DisplacementBatch& batch, uint32_t lane, uint32_t r, uint32_t terms,
-               const PredictionGraph::Row& row) {
-  batch.self[lane] = r;
+void init_row(DisplacementBatch& batch, uint32_t place, uint32_t r, uint32_t terms,
+              const PredictionGraph::Row& row) {
+  batch.self[place] = r;
   batch.count = std::max(batch.count, kOwnTerms + terms);
   for (uint32_t i = 0; i < kMaxNeighbours; ++i) {
     const bool own = i < kOwnTerms;
     const uint32_t n = i - kOwnTerms;
     const bool used = own || n < terms;
-    batch.neighbour[i][lane] = !own && used ? row.neighbour[n] : r;
-    batch.in_use[i][lane] = used ? 1.0 : 0.0;
-    batch.prior[i][lane] = !own && used ? static_cast<double>(row.prior[n]) : 0.0;
+    batch.neighbour[i][place] = !own && used ? row.neighbour[n] : r;
+    batch.in_use[i][place] = used ? 1.0 : 0.0;
+    batch.prior[i][place] = !own && used ? static_cast<double>(row.prior[n]) : 0.0;
   }
-  if (terms == 0) batch.prior[0][lane] = kAloneWeight;
+  if (terms == 0) batch.prior[0][place] = kAloneWeight;
 }
 
 }  // namespace
@@ -47,11 +48,11 @@ DisplacementPredictor::DisplacementPredictor(const PredictionGraph& graph,
       position_(size_t{graph.size()} * 4),
       squared_error_(graph.size()) {
   for (auto& plane : moved_) plane.assign(position_.size(), 0.0f);
-  batches_->items.resize((graph.size() + kLanes - 1) / kLanes, DisplacementBatch{});
-  for (uint32_t r = 0; r < batches_->items.size() * kLanes; ++r) {
-    // Lanes past the end repeat the last row; their results are dropped.
+  batches_->items.resize((graph.size() + kRowsAtOnce - 1) / kRowsAtOnce, DisplacementBatch{});
+  for (uint32_t r = 0; r < batches_->items.size() * kRowsAtOnce; ++r) {
+    // Past the end the last row comes again; its results are dropped.
     const uint32_t row = std::min(r, graph.size() - 1);
-    init_lane(batches_->items[r / kLanes], r % kLanes, row, terms(row), graph.rows[row]);
+    init_row(batches_->items[r / kRowsAtOnce], r % kRowsAtOnce, row, terms(row), graph.rows[row]);
   }
   jump(start);
   solve();
@@ -125,9 +126,9 @@ void DisplacementPredictor::solve() {
   const auto count = static_cast<uint32_t>(batches_->items.size());
   parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
     for (uint32_t b = begin; b < end; ++b) {
-      float* out[kLanes];
-      for (uint32_t l = 0; l < kLanes; ++l) {
-        const uint32_t row = b * kLanes + l;
+      float* out[kRowsAtOnce];
+      for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+        const uint32_t row = b * kRowsAtOnce + l;
         out[l] = row < graph_.size() ? &weights_[size_t{row} * kMaxNeighbours] : dropped;
       }
       batches_->kernels.solve(batches_->items[b], out);

@@ -13,28 +13,28 @@ namespace {
 
 /// The positions are exact to half a grid unit and to the surface's bending.
 void observe_rows(const PredictionGraph& graph, const GridPoints& points,
-                  const std::vector<uint32_t>& order, const uint32_t rows[kLanes],
-                  const Kernels& kernels, BatchVector<RowEquations>& equations) {
+                  const std::vector<uint32_t>& order, const uint32_t rows[kRowsAtOnce],
+                  const WeightKernels& kernels, BatchVector<RowEquations>& equations) {
   constexpr double kGridVariance = 0.25;  // of half a grid unit
   constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
   PointDifferences y{};
-  RowEquations* out[kLanes];
+  RowEquations* out[kRowsAtOnce];
   uint32_t most = 0;
-  for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const uint32_t r = rows[lane];
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+    const uint32_t r = rows[l];
     const PredictionGraph::Row& row = graph.rows[r];
-    out[lane] = &equations[r];
+    out[l] = &equations[r];
     most = std::max(most, uint32_t{row.count});
     if (row.count == 0) continue;
     int64_t spread = 0;
     for (uint32_t i = 0; i < row.count; ++i) {
       for (int a = 0; a < 3; ++a) {
         const int64_t d = points[order[row.neighbour[i]]][a] - points[order[r]][a];
-        y.neighbour[i][a][lane] = static_cast<double>(d);
+        y.neighbour[i][a][l] = static_cast<double>(d);
         spread += d * d;
       }
     }
-    y.inverse_noise[lane] =
+    y.inverse_noise[l] =
         1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
   }
   kernels.observe_points(y, most, out);
@@ -75,9 +75,9 @@ void WeightEstimator::observe_reference(const GridPoints& points,
   equations_.resize(graph_.size());
   std::vector<uint32_t> rows(graph_.size());
   std::iota(rows.begin(), rows.end(), 0u);
-  for (uint32_t first = 0; first < graph_.size(); first += kLanes) {
-    uint32_t eight[kLanes];
-    for (uint32_t l = 0; l < kLanes; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
+  for (uint32_t first = 0; first < graph_.size(); first += kRowsAtOnce) {
+    uint32_t eight[kRowsAtOnce];
+    for (uint32_t l = 0; l < kRowsAtOnce; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
     observe_rows(graph_, points, order, eight, kernels_, equations_);
     solve_eight(rows, first, {});  // while they are at hand
   }
@@ -138,9 +138,9 @@ void WeightEstimator::solve(uint32_t misses, const Planes& planes) {
   make_equations();
   const List observed = list(planes);
   const std::vector<uint32_t> rows = take_missed(misses);
-  const auto eights = static_cast<uint32_t>((rows.size() + kLanes - 1) / kLanes);
+  const auto eights = static_cast<uint32_t>((rows.size() + kRowsAtOnce - 1) / kRowsAtOnce);
   parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin * kLanes; first < end * kLanes; first += kLanes)
+    for (uint32_t first = begin * kRowsAtOnce; first < end * kRowsAtOnce; first += kRowsAtOnce)
       solve_eight(rows, first, observed);
   });
 }
@@ -157,12 +157,12 @@ std::vector<uint32_t> WeightEstimator::take_missed(uint32_t misses) {
 
 void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t first,
                                   const List& list) {
-  const uint32_t count = std::min(kLanes, static_cast<uint32_t>(rows.size()) - first);
+  const uint32_t count = std::min(kRowsAtOnce, static_cast<uint32_t>(rows.size()) - first);
   float dropped[kMaxNeighbours];
-  uint32_t row[kLanes];
-  float* out[kLanes];
-  for (uint32_t l = 0; l < kLanes; ++l) {
-    // Lanes past the end repeat the last row; their results are dropped.
+  uint32_t row[kRowsAtOnce];
+  float* out[kRowsAtOnce];
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+    // Past the end the last row comes again; its results are dropped.
     row[l] = rows[first + std::min(l, count - 1)];
     if (first + l + 1 < rows.size()) {
       prefetch(graph_.rows[rows[first + l + 1]]);

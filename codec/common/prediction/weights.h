@@ -11,7 +11,8 @@
 #include "codec/common/base/batches.h"
 #include "codec/common/mesh/grid.h"
 #include "codec/common/prediction/prediction_graph.h"
-#include "codec/common/simd/kernels.h"
+#include "codec/common/prediction/weight_kernels.h"
+#include "codec/common/simd/instruction_set.h"
 
 namespace reeb {
 
@@ -86,7 +87,7 @@ class WeightEstimator {
   const PredictionGraph& graph_;
   WeightOptions options_;
   unsigned threads_;
-  Kernels kernels_ = fastest_kernels();
+  WeightKernels kernels_ = fastest_kernels<WeightKernels>();
   BatchVector<RowEquations> equations_;  ///< none before something is learned
   std::vector<RowTarget> targets_;       ///< none where weights sum to one
   double scale_[kObservations] = {};     ///< 1 / sqrt(noise) of the observations of the list

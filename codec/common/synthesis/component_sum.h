@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "codec/common/base/raw_vector.h"
-#include "codec/common/simd/kernels.h"
+#include "codec/common/simd/instruction_set.h"
+#include "codec/common/synthesis/sum_kernels.h"
 
 namespace reeb {
 
@@ -49,7 +50,7 @@ class ComponentSum {
   RawVector<uint32_t> narrow_tiles_;    ///< [tile][pair][vertex]: two 16-bit integers
   std::vector<float> wide_basis_;       ///< [time][axis][component]
   std::vector<uint32_t> narrow_basis_;  ///< [time][axis][pair]
-  Kernels kernels_ = fastest_kernels();
+  SumKernels kernels_ = fastest_kernels<SumKernels>();
 };
 
 }  // namespace reeb

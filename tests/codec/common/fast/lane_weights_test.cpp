@@ -8,8 +8,8 @@
 
 #include "codec/common/fast/contraction.h"
 #include "codec/common/fast/lane_field.h"
+#include "codec/common/simd/instruction_set.h"
 #include "codec/enc/fields/lane_field_encoder.h"
-#include "tests/codec/kernel_sets.h"
 #include "tests/codec/shapes.h"
 
 using namespace reeb;
@@ -97,7 +97,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 /// Weights of all rows, sixteen at a time, the last ones more than once.
-std::vector<float> run_kernel(const Kernels& kernels, const Fixture& f) {
+std::vector<float> run_kernel(const LaneWeightKernels& kernels, const Fixture& f) {
   std::vector<float> out(size_t{f.rows()} * kMaxNeighbours);
   for (uint32_t first = 0; first < f.rows(); first += kWeightRows) {
     uint32_t rows[kWeightRows];
@@ -106,7 +106,7 @@ std::vector<float> run_kernel(const Kernels& kernels, const Fixture& f) {
       rows[l] = std::min(first + l, f.rows() - 1);
       to[l] = &out[size_t{rows[l]} * kMaxNeighbours];
     }
-    kernels.learn_lanes(f.task(2), rows, to);
+    kernels.learn(f.task(2), rows, to);
   }
   return out;
 }
@@ -198,7 +198,8 @@ TEST_CASE("only the rows that are asked for get new weights", "[lane_weights]") 
 TEST_CASE("every instruction set finds the same weights of lanes", "[lane_weights]") {
   for (const float size : {9.0f, 1e8f, 1e25f}) {  // the last one is beyond what binary32 can square
     const Fixture f(torus(16, 11), size);
-    const std::vector<float> base = run_kernel(kernel_sets()[0], f);
+    const std::vector<float> base =
+        run_kernel(kernels_for<LaneWeightKernels>(InstructionSet::kBase), f);
     const auto same = [&](const std::vector<float>& other) {
       for (size_t i = 0; i < base.size(); ++i) {
         const bool both_none = std::isnan(base[i]) && std::isnan(other[i]);
@@ -206,7 +207,8 @@ TEST_CASE("every instruction set finds the same weights of lanes", "[lane_weight
       }
       return true;
     };
-    for (const Kernels& kernels : kernel_sets()) CHECK(same(run_kernel(kernels, f)));
+    for (const InstructionSet set : instruction_sets())
+      CHECK(same(run_kernel(kernels_for<LaneWeightKernels>(set), f)));
   }
 }
 

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <random>
 
-#include "tests/codec/kernel_sets.h"
 #include "tests/codec/shapes.h"
 
 using namespace reeb;
@@ -110,7 +109,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 /// Eight rows at work, from row 40 of the fixture on.
-std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool sum_to_one) {
+std::vector<float> run_kernels(const WeightKernels& kernels, const Fixture& f, bool sum_to_one) {
   const auto observations = static_cast<uint32_t>(f.planes.size());
   std::vector<const float*> planes;
   std::vector<double> scale;
@@ -118,22 +117,22 @@ std::vector<float> run_kernels(const Kernels& kernels, const Fixture& f, bool su
     planes.push_back(f.planes[o].data());
     scale.push_back(1 / std::sqrt(f.noise[o]));
   }
-  std::vector<float> out(kLanes * kMaxNeighbours, 1.0f);
+  std::vector<float> out(kRowsAtOnce * kMaxNeighbours, 1.0f);
   std::vector<RowEquations> equations(f.surface.graph.size());
   std::vector<RowTarget> targets(f.surface.graph.size());
-  uint32_t rows[kLanes];
-  float* lanes[kLanes];
-  for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const uint32_t r = rows[lane] = 40 + lane * 3;
+  uint32_t rows[kRowsAtOnce];
+  float* to[kRowsAtOnce];
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+    const uint32_t r = rows[l] = 40 + l * 3;
     const PredictionGraph::Row& row = f.surface.graph.rows[r];
     kernels.fold(
         equations[r], sum_to_one ? nullptr : targets[r].data(),
         {planes.data(), scale.data(), row.neighbour.data(), row.count, r, 1, observations});
-    lanes[lane] = &out[lane * kMaxNeighbours];
+    to[l] = &out[l * kMaxNeighbours];
   }
   kernels.solve({f.surface.graph.rows.data(), equations.data(),
                  sum_to_one ? nullptr : targets.data(), 0.7, 1.3},
-                rows, lanes);
+                rows, to);
   return out;
 }
 
@@ -209,9 +208,10 @@ TEST_CASE("weights do not depend on the number of threads", "[weights]") {
 TEST_CASE("every instruction set gives the same bits", "[weights]") {
   const Fixture f(torus(16, 11));
   for (const bool sum_to_one : {false, true}) {
-    const std::vector<float> base = run_kernels(kernel_sets()[0], f, sum_to_one);
-    for (const Kernels& kernels : kernel_sets())
-      CHECK(same_bits(base, run_kernels(kernels, f, sum_to_one)));
+    const std::vector<float> base =
+        run_kernels(kernels_for<WeightKernels>(InstructionSet::kBase), f, sum_to_one);
+    for (const InstructionSet set : instruction_sets())
+      CHECK(same_bits(base, run_kernels(kernels_for<WeightKernels>(set), f, sum_to_one)));
   }
 }
 

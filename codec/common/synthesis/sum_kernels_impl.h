@@ -1,5 +1,4 @@
-// Bodies of the kernels, compiled once per instruction set; REEB_KERNEL_NAMESPACE tells
-// which. No function here may be shared between instruction sets, hence the namespace.
+// Bodies of the kernels of the sum of components; see codec/common/kernels_impl.h.
 #pragma once
 
 #include <cstring>
@@ -7,12 +6,11 @@
 #include <immintrin.h>
 #endif
 
-#include "codec/common/simd/kernels.h"
-#include "codec/common/simd/lane_kernels_impl.h"
-#include "codec/common/simd/lane_weight_kernels_impl.h"
-#include "codec/common/simd/weight_kernels_impl.h"
+#include "codec/common/simd/instruction_set.h"
+#include "codec/common/simd/vectors_impl.h"
+#include "codec/common/synthesis/sum_kernels.h"
 
-namespace reeb::REEB_KERNEL_NAMESPACE {
+namespace reeb {
 
 namespace {
 
@@ -92,8 +90,10 @@ void combine(const ComponentTile& tile, const FrameBasis& basis, float* xyz) {
 
 }  // namespace
 
-extern const Kernels kKernels;
-const Kernels kKernels = {observe_points, fold,       solve,        combine,
-                          guess_lanes,    note_lanes, decode_lanes, learn_lanes};
+template <>
+const SumKernels& compiled_kernels<SumKernels, kCompiledFor>() {
+  static constexpr SumKernels kKernels = {.combine = combine};
+  return kKernels;
+}
 
-}  // namespace reeb::REEB_KERNEL_NAMESPACE
+}  // namespace reeb

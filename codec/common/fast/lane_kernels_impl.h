@@ -1,4 +1,4 @@
-// Bodies of the kernels of lane fields; see kernels_impl.h.
+// Bodies of the kernels of lane fields; see codec/common/kernels_impl.h.
 #pragma once
 
 #include <cstring>
@@ -6,12 +6,11 @@
 #include <immintrin.h>
 #endif
 
-#include "codec/common/simd/kernels.h"
-#include "codec/common/simd/vector_load.h"
+#include "codec/common/fast/lane_kernels.h"
+#include "codec/common/simd/instruction_set.h"
+#include "codec/common/simd/vectors_impl.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
-
-namespace reeb::REEB_KERNEL_NAMESPACE {
+namespace reeb {
 
 namespace {
 
@@ -93,6 +92,17 @@ void note_lanes(LaneBlock& b, uint32_t row, const LaneGuess& guess, const int32_
     note_vectors(b, row, first, load<LanesF>(guess.prediction + first), load<LanesI>(n + first));
 }
 
+/// The integers of symbols; `large` is the set of lanes whose symbols have raw bits.
+[[gnu::always_inline]] inline LanesI integers(RansDecoder& decoder, const LanesU& symbol,
+                                              uint32_t large) {
+  auto out = reinterpret_cast<LanesI>((symbol >> 1) ^ -(symbol & 1));
+  for (; large != 0; large &= large - 1) {
+    const auto lane = static_cast<uint32_t>(__builtin_ctz(large));
+    out[lane] = decoder.large(symbol[lane]);
+  }
+  return out;
+}
+
 #if defined(__AVX512VNNI__)
 /// RansDecoder::get for all lanes. Intrinsics without a mask would leave GCC 12 in doubt
 /// whether their results are initialised.
@@ -124,22 +134,12 @@ class LaneDecoder {
         _mm512_mask_mov_epi32(reinterpret_cast<__m512i>(state_), lanes_, next));
     cursor.at += static_cast<uint32_t>(__builtin_popcount(low));
     decoder_.settle();
-    return integers(reinterpret_cast<LanesU>(
-        _mm512_maskz_mov_epi32(lanes_, reinterpret_cast<__m512i>(slot >> 24))));
+    const __m512i symbol = _mm512_maskz_mov_epi32(lanes_, reinterpret_cast<__m512i>(slot >> 24));
+    return integers(decoder_, reinterpret_cast<LanesU>(symbol),
+                    _mm512_cmpgt_epu32_mask(symbol, _mm512_set1_epi32(kRansLastSingle)));
   }
 
  private:
-  [[gnu::always_inline]] LanesI integers(const LanesU& symbol) {
-    auto out = reinterpret_cast<LanesI>((symbol >> 1) ^ -(symbol & 1));
-    uint32_t large = _mm512_cmpgt_epu32_mask(reinterpret_cast<__m512i>(symbol),
-                                             _mm512_set1_epi32(kRansLastSingle));
-    for (; large != 0; large &= large - 1) {
-      const auto lane = static_cast<uint32_t>(__builtin_ctz(large));
-      out[lane] = decoder_.large(symbol[lane]);
-    }
-    return out;
-  }
-
   RansDecoder& decoder_;
   __mmask16 lanes_;
   LanesU state_;
@@ -188,21 +188,13 @@ class LaneDecoder {
     std::memcpy(cursor.state + first, &kept, sizeof kept);
     cursor.at += static_cast<uint32_t>(__builtin_popcount(set));
     decoder_.settle();
-    return integers((slot >> 24) & reinterpret_cast<LanesU>(used));
+    const LanesU symbol = (slot >> 24) & reinterpret_cast<LanesU>(used);
+    const LanesI beyond = symbol > kRansLastSingle;
+    const int large = _mm256_movemask_ps(reinterpret_cast<__m256>(beyond));
+    return integers(decoder_, symbol, static_cast<uint32_t>(large));
   }
 
  private:
-  [[gnu::always_inline]] LanesI integers(const LanesU& symbol) {
-    auto out = reinterpret_cast<LanesI>((symbol >> 1) ^ -(symbol & 1));
-    const LanesI beyond = symbol > kRansLastSingle;
-    auto large = static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(beyond)));
-    for (; large != 0; large &= large - 1) {
-      const auto lane = static_cast<uint32_t>(__builtin_ctz(large));
-      out[lane] = decoder_.large(symbol[lane]);
-    }
-    return out;
-  }
-
   RansDecoder& decoder_;
   int32_t used_[kRansLanes];
 };
@@ -240,4 +232,11 @@ void decode_lanes(LaneBlock& b, RansDecoder& decoder, uint32_t lanes) {
 
 }  // namespace
 
-}  // namespace reeb::REEB_KERNEL_NAMESPACE
+template <>
+const LaneKernels& compiled_kernels<LaneKernels, kCompiledFor>() {
+  static constexpr LaneKernels kKernels = {
+      .guess = guess_lanes, .note = note_lanes, .decode = decode_lanes};
+  return kKernels;
+}
+
+}  // namespace reeb

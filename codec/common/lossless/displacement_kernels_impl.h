@@ -1,10 +1,11 @@
-// Bodies of the displacement kernels, compiled once per instruction set behind kernels_impl.h.
+// Bodies of the displacement kernels; see codec/common/kernels_impl.h.
 #pragma once
 
-#include "codec/common/simd/displacement_kernels.h"
-#include "codec/common/simd/kernels_impl.h"
+#include "codec/common/lossless/displacement_kernels.h"
+#include "codec/common/prediction/row_vectors_impl.h"
+#include "codec/common/simd/instruction_set.h"
 
-namespace reeb::REEB_KERNEL_NAMESPACE {
+namespace reeb {
 
 namespace {
 
@@ -17,15 +18,15 @@ constexpr double kLargestWeight = 64;
 
 /// The terms of one axis, term i in y[i].
 inline void gather_terms(const DisplacementBatch& batch, const DisplacementFrame& frame,
-                         uint32_t axis, Lanes* y) {
-  for (uint32_t l = 0; l < kLanes; ++l) {
+                         uint32_t axis, RowValues* y) {
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
     const uint32_t own = batch.self[l] * 4 + axis;
     y[0][l] = static_cast<double>(frame.before[own]);
     y[1][l] = static_cast<double>(frame.older[own]);
   }
   for (uint32_t i = kOwnTerms; i < batch.count; ++i) {
-    Lanes value{};
-    for (uint32_t l = 0; l < kLanes; ++l)
+    RowValues value{};
+    for (uint32_t l = 0; l < kRowsAtOnce; ++l)
       value[l] = static_cast<double>(frame.now[batch.neighbour[i][l] * 4 + axis]);
     y[i] = value * batch.in_use[i];
   }
@@ -33,29 +34,29 @@ inline void gather_terms(const DisplacementBatch& batch, const DisplacementFrame
 
 void learn_displacement(DisplacementBatch& batch, const DisplacementFrame& frame) {
   const uint32_t n = batch.count;
-  Lanes y[3][kMaxNeighbours];
-  Lanes d[3];
+  RowValues y[3][kMaxNeighbours];
+  RowValues d[3];
   for (uint32_t a = 0; a < 3; ++a) {
     gather_terms(batch, frame, a, y[a]);
-    for (uint32_t l = 0; l < kLanes; ++l)
+    for (uint32_t l = 0; l < kRowsAtOnce; ++l)
       d[a][l] = static_cast<double>(frame.now[batch.self[l] * 4 + a]);
   }
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j <= i; ++j) {
-      Lanes& m = batch.matrix[packed(i, j)];
+      RowValues& m = batch.matrix[packed(i, j)];
       m = m * kKept + y[0][i] * y[0][j] + y[1][i] * y[1][j] + y[2][i] * y[2][j];
     }
-    Lanes& g = batch.target[i];
+    RowValues& g = batch.target[i];
     g = g * kKept + y[0][i] * d[0] + y[1][i] * d[1] + y[2][i] * d[2];
   }
-  Lanes error{};
-  for (uint32_t l = 0; l < kLanes; ++l) error[l] = frame.squared_error[batch.self[l]];
+  RowValues error{};
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) error[l] = frame.squared_error[batch.self[l]];
   batch.energy = batch.energy * kEnergyKept + error * (1 - kEnergyKept);
 }
 
-/// Of the lanes from `first` on.
-inline void solve_lanes(const DisplacementBatch& batch, uint32_t first, float* const* out) {
-  const auto part = [first](const Lanes& of) {
+/// Of the rows from `first` on.
+inline void solve_displacements(const DisplacementBatch& batch, uint32_t first, float* const* out) {
+  const auto part = [first](const RowValues& of) {
     return load<Doubles>(reinterpret_cast<const double*>(&of) + first);
   };
   const uint32_t n = batch.count;
@@ -79,14 +80,18 @@ inline void solve_lanes(const DisplacementBatch& batch, uint32_t first, float* c
   store_weights(w, n, out);
 }
 
-void solve_displacement(const DisplacementBatch& batch, float* const out[kLanes]) {
-  for (uint32_t first = 0; first < kLanes; first += kDoubles)
-    solve_lanes(batch, first, out + first);
+void solve_displacement(const DisplacementBatch& batch, float* const* out) {
+  for (uint32_t first = 0; first < kRowsAtOnce; first += kDoubles)
+    solve_displacements(batch, first, out + first);
 }
 
 }  // namespace
 
-extern const DisplacementKernels kDisplacementKernels;
-const DisplacementKernels kDisplacementKernels = {learn_displacement, solve_displacement};
+template <>
+const DisplacementKernels& compiled_kernels<DisplacementKernels, kCompiledFor>() {
+  static constexpr DisplacementKernels kKernels = {.learn = learn_displacement,
+                                                   .solve = solve_displacement};
+  return kKernels;
+}
 
-}  // namespace reeb::REEB_KERNEL_NAMESPACE
+}  // namespace reeb

@@ -1,14 +1,14 @@
-// Small symmetric systems of equations, one in every lane of a vector; see kernels_impl.h.
+// Small symmetric systems of equations, one in every element of a vector; see
+// codec/common/kernels_impl.h.
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
-#include "codec/common/simd/kernels.h"
+#include "codec/common/base/packed_matrix.h"
+#include "codec/common/prediction/prediction_graph.h"
+#include "codec/common/simd/vectors_impl.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
-
-namespace reeb::REEB_KERNEL_NAMESPACE {
+namespace reeb {
 
 namespace {
 
@@ -35,8 +35,7 @@ inline void eliminate(V* a, uint32_t first, uint32_t j, const V* scaled, const V
 /// rounding has eaten a pivot its 1/D is 0, which takes the unknown out of the system.
 template <uint32_t kSides, class V>
 inline void factorise(uint32_t n, V* a) {
-  using Real = std::remove_reference_t<decltype(a[0][0])>;
-  constexpr auto kMinPivot = static_cast<Real>(sizeof(Real) == 8 ? 0x1p-42 : 0x1p-20);
+  constexpr auto kMinPivot = static_cast<Element<V>>(sizeof(Element<V>) == 8 ? 0x1p-42 : 0x1p-20);
   constexpr uint32_t kTogetherRows = 4;
   const V zero{};
   const V one = zero + 1;
@@ -73,7 +72,8 @@ inline void substitute_back(uint32_t n, const V* a, V* x) {
 }
 
 /// Solves A x = b for each right side b, which x takes the place of: kSystem entries, of which n
-/// unknowns and kSides right sides are in use. `V`: lanes, in binary64 or binary32.
+/// unknowns and kSides right sides are in use. `V`: a vector of
+/// binary64 or binary32.
 template <uint32_t kSides, class V>
 inline void solve_system(uint32_t n, V* a) {
   factorise<kSides>(n, a);
@@ -98,4 +98,4 @@ inline void constrain(uint32_t n, V* w, const V* b) {
 
 }  // namespace
 
-}  // namespace reeb::REEB_KERNEL_NAMESPACE
+}  // namespace reeb

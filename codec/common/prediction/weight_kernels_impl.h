@@ -1,62 +1,17 @@
-// Bodies of the kernels that estimate weights; see kernels_impl.h.
+// Bodies of the kernels that estimate weights; see codec/common/kernels_impl.h.
 #pragma once
 
 #include <cstring>
 #include <utility>
 
-#include "codec/common/simd/kernels.h"
-#include "codec/common/simd/lane_solver_impl.h"
-#include "codec/common/simd/vector_load.h"
+#include "codec/common/base/packed_matrix.h"
+#include "codec/common/prediction/row_vectors_impl.h"
+#include "codec/common/prediction/weight_kernels.h"
+#include "codec/common/simd/instruction_set.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed within a file only
-
-namespace reeb::REEB_KERNEL_NAMESPACE {
+namespace reeb {
 
 namespace {
-
-#if defined(__AVX512F__)
-constexpr uint32_t kFloats = 16;
-#elif defined(__AVX__)
-constexpr uint32_t kFloats = 8;
-#else
-constexpr uint32_t kFloats = 4;
-#endif
-/// A vector register of floats.
-using Floats = float __attribute__((vector_size(kFloats * sizeof(float))));
-
-/// Eight floats, however many registers that takes.
-using Floats8 = float __attribute__((vector_size(8 * sizeof(float))));
-
-/// A register of doubles, and as many floats: GCC 12 takes wider vectors apart in memory.
-constexpr uint32_t kDoubles = kFloats / 2;
-using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
-using HalfFloats = float __attribute__((vector_size(kDoubles * sizeof(float))));
-
-/// x[from], y[from], x[from + 1], y[from + 1], ...
-template <uint32_t from, class V, uint32_t... l>
-inline V interleave(V x, V y, std::integer_sequence<uint32_t, l...>) {
-  return __builtin_shufflevector(x, y, (from + l / 2 + l % 2 * sizeof...(l))...);
-}
-
-/// out[i][l] = in[l][i]. A perfect shuffle of all elements rotates the bits of their index: as many
-/// as there are bits in l make it i.
-template <class V>
-inline void transpose(const V* in, V* out) {
-  constexpr uint32_t n = sizeof(V) / sizeof(in[0][0]);
-  constexpr auto kEach = std::make_integer_sequence<uint32_t, n>();
-  V turns[2][n];
-  for (uint32_t i = 0; i < n; ++i) turns[0][i] = in[i];
-  uint32_t turn = 0;
-  for (uint32_t done = 1; done < n; done *= 2) {
-    const V* from = turns[turn];
-    turn ^= 1;
-    for (uint32_t i = 0; i < n / 2; ++i) {
-      turns[turn][2 * i] = interleave<0>(from[i], from[i + n / 2], kEach);
-      turns[turn][2 * i + 1] = interleave<n / 2>(from[i], from[i + n / 2], kEach);
-    }
-  }
-  for (uint32_t i = 0; i < n; ++i) out[i] = turns[turn][i];
-}
 
 /// Calls function(k, entry) for the entries `first` + k of a strip, k < kDoubles, that are of a
 /// matrix of n rows.
@@ -122,7 +77,7 @@ inline void collect(const FoldTask& task, bool to_one, Said& said) {
   }
 }
 
-/// All ones where place first + l is below k, for each lane l.
+/// All ones where place first + l is below k, for each element l.
 template <uint32_t k, uint32_t first, uint32_t... l>
 inline auto mask_below(std::integer_sequence<uint32_t, l...>) {
   using Mask = int64_t __attribute__((vector_size(sizeof(Doubles))));
@@ -186,12 +141,12 @@ void fold(RowEquations& row, double* target, const FoldTask& task) {
 }
 
 void observe_points(const PointDifferences& y, uint32_t n, RowEquations* const* rows) {
-  for (uint32_t first = 0; first < kLanes; first += kDoubles) {
+  for (uint32_t first = 0; first < kRowsAtOnce; first += kDoubles) {
     const auto of = [&](uint32_t i, uint32_t a) {
       return load<Doubles>(y.neighbour[i][a] + first);
     };
     const auto inverse_noise = load<Doubles>(y.inverse_noise + first);
-    Doubles matrix[kTriangle] = {};
+    Doubles matrix[packed(kMaxNeighbours, 0)] = {};
     for (uint32_t i = 0; i < n; ++i) {
       for (uint32_t j = 0; j <= i; ++j) {
         const Doubles dot = of(i, 0) * of(j, 0) + of(i, 1) * of(j, 1) + of(i, 2) * of(j, 2);
@@ -202,87 +157,20 @@ void observe_points(const PointDifferences& y, uint32_t n, RowEquations* const* 
   }
 }
 
-/// The rows of a register.
-struct SolveRows {
-  const PredictionGraph::Row* row[kDoubles];
-  const uint32_t* index;
-  uint32_t count = 0;  ///< the most neighbours that one has
-  Doubles counts;
-  Doubles rings;
-};
-
-inline SolveRows rows_of(const SolveTask& task, const uint32_t* rows) {
-  SolveRows out;
-  out.index = rows;
-  for (uint32_t l = 0; l < kDoubles; ++l) {
-    out.row[l] = task.rows + rows[l];
-    out.count = out.row[l]->count > out.count ? out.row[l]->count : out.count;
-    out.counts[l] = out.row[l]->count;
-    out.rings[l] = out.row[l]->ring;
-  }
-  return out;
-}
-
-/// out[k], for k < kDoubles: the k-th of the floats at from(lane), of every lane.
-template <class From>
-inline void gather_lanes(From from, Doubles* out) {
-  HalfFloats in[kDoubles];
-  HalfFloats turned[kDoubles];
-  for (uint32_t l = 0; l < kDoubles; ++l) in[l] = load<HalfFloats>(from(l));
-  transpose(in, turned);
-  for (uint32_t k = 0; k < kDoubles; ++k) out[k] = __builtin_convertvector(turned[k], Doubles);
-}
-
-/// Adds what is expected of the weights to the matrix, and writes the right sides: w, and ones
-/// where there is a neighbour.
-inline void expect(const SolveTask& task, const SolveRows& rows, Doubles* a) {
-  const uint32_t n = rows.count;
-  Doubles* const w = a + packed(n, 0);
-  Doubles* const ones = a + packed(n + 1, 0);
-  const Doubles zero{};
-  for (uint32_t first = 0; first < n; first += kDoubles) {
-    Doubles prior[kDoubles];
-    Doubles precision[kDoubles];
-    gather_lanes([&](uint32_t l) { return elements(rows.row[l]->prior) + first; }, prior);
-    gather_lanes([&](uint32_t l) { return elements(rows.row[l]->precision) + first; }, precision);
-    for (uint32_t k = 0; k < kDoubles && first + k < n; ++k) {
-      const uint32_t i = first + k;
-      const Doubles place = zero + static_cast<double>(i);
-      const Doubles sure = precision[k] * (place < rows.rings ? zero + task.ring_precision
-                                                              : zero + task.extra_precision);
-      a[packed(i, i)] += sure;
-      w[i] = prior[k] * sure;
-      ones[i] = place < rows.counts ? zero + 1 : zero;
-    }
-  }
-}
-
-inline void add_targets(const SolveTask& task, const SolveRows& rows, Doubles* w) {
+inline void add_targets(const SolveTask& task, const Rows<Doubles>& rows, Doubles* w) {
   for (uint32_t l = 0; l < kDoubles; ++l) {
     const double* target = elements(task.targets[rows.index[l]]);
     for (uint32_t i = 0; i < rows.count; ++i) w[i][l] += target[i];
   }
 }
 
-/// n weights of every lane, and zeros up to kMaxNeighbours.
-inline void store_weights(const Doubles* w, uint32_t n, float* const* out) {
-  for (uint32_t first = 0; first < kMaxNeighbours; first += kDoubles) {
-    HalfFloats in[kDoubles] = {};
-    HalfFloats turned[kDoubles];
-    for (uint32_t k = 0; k < kDoubles && first + k < n; ++k)
-      in[k] = __builtin_convertvector(w[first + k], HalfFloats);
-    transpose(in, turned);
-    for (uint32_t l = 0; l < kDoubles; ++l) store(out[l] + first, turned[l]);
-  }
-}
-
 inline void solve_register(const SolveTask& task, const uint32_t* indices, float* const* out) {
-  const SolveRows rows = rows_of(task, indices);
+  const auto rows = rows_of<Doubles>(task.rows, indices);
   const uint32_t n = rows.count;
   Doubles a[kSystem];
   Doubles* const w = a + packed(n, 0);
   load_equations(task.equations, rows.index, n, a);
-  expect(task, rows, a);
+  expect(rows, task.ring_precision, task.extra_precision, a);
   if (task.targets == nullptr) {
     solve_system<2>(n, a);
     constrain(n, w, a + packed(n + 1, 0));
@@ -294,10 +182,17 @@ inline void solve_register(const SolveTask& task, const uint32_t* indices, float
 }
 
 void solve(const SolveTask& task, const uint32_t* rows, float* const* out) {
-  for (uint32_t first = 0; first < kLanes; first += kDoubles)
+  for (uint32_t first = 0; first < kRowsAtOnce; first += kDoubles)
     solve_register(task, rows + first, out + first);
 }
 
 }  // namespace
 
-}  // namespace reeb::REEB_KERNEL_NAMESPACE
+template <>
+const WeightKernels& compiled_kernels<WeightKernels, kCompiledFor>() {
+  static constexpr WeightKernels kKernels = {
+      .observe_points = observe_points, .fold = fold, .solve = solve};
+  return kKernels;
+}
+
+}  // namespace reeb

@@ -1,0 +1,2 @@
+#define REEB_INSTRUCTION_SET kBase
+#include "codec/common/kernels_impl.h"

@@ -1,3 +1,0 @@
-#define REEB_KERNEL_NAMESPACE avx512_kernel
-#include "codec/common/simd/displacement_kernels_impl.h"
-#include "codec/common/simd/kernels_impl.h"
