@@ -54,8 +54,8 @@ std::vector<uint8_t> IntervalEncoder::finish() {
   return std::move(bytes_);
 }
 
-IntervalDecoder::IntervalDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
-  for (int i = 0; i < 8; ++i) code_ = code_ << 8 | next_byte();
+IntervalDecoder::IntervalDecoder(std::span<const uint8_t> bytes) : in_(bytes) {
+  for (int i = 0; i < 8; ++i) code_ = code_ << 8 | in_.next();
 }
 
 }  // namespace reeb

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "entropy/byte_input.h"
 #include "entropy/range_coder.h"
 
 namespace reeb {
@@ -66,19 +67,14 @@ class IntervalDecoder {
   }
 
   /// True once more bytes were needed than a well-formed code of this length can need.
-  bool overrun() const { return position_ > bytes_.size() + 8; }
+  bool overrun() const { return in_.taken() > in_.size() + 8; }
 
  private:
   void shift() {
-    for (; range_ >> 56 == 0; range_ <<= 8) code_ = code_ << 8 | next_byte();
-  }
-  uint8_t next_byte() {
-    const size_t at = position_++;
-    return at < bytes_.size() ? bytes_[at] : uint8_t{0};
+    for (; range_ >> 56 == 0; range_ <<= 8) code_ = code_ << 8 | in_.next();
   }
 
-  std::span<const uint8_t> bytes_;
-  size_t position_ = 0;
+  ByteInput in_;
   uint64_t code_ = 0;
   uint64_t range_ = UINT64_MAX;
 };

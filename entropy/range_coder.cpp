@@ -56,8 +56,8 @@ std::vector<uint8_t> BinaryEncoder::finish() {
   return std::move(bytes_);
 }
 
-BinaryDecoder::BinaryDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
-  for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next_byte();
+BinaryDecoder::BinaryDecoder(std::span<const uint8_t> bytes) : in_(bytes) {
+  for (int i = 0; i < 4; ++i) code_ = code_ << 8 | in_.next();
 }
 
 }  // namespace reeb

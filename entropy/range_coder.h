@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "entropy/byte_input.h"
+
 namespace reeb {
 
 /// Probability of a 1 in units of 1/65536; 1 .. 65535.
@@ -50,24 +52,19 @@ class BinaryDecoder {
       range_ -= bound;
     }
     while (range_ < kTop) {
-      code_ = code_ << 8 | next_byte();
+      code_ = code_ << 8 | in_.next();
       range_ <<= 8;
     }
     return bit;
   }
 
   /// True once more bytes were needed than a well-formed code of this length can need.
-  bool overrun() const { return position_ > bytes_.size() + 4; }
+  bool overrun() const { return in_.taken() > in_.size() + 4; }
 
  private:
   static constexpr uint32_t kTop = 1u << 24;
-  uint8_t next_byte() {
-    const size_t at = position_++;
-    return at < bytes_.size() ? bytes_[at] : uint8_t{0};
-  }
 
-  std::span<const uint8_t> bytes_;
-  size_t position_ = 0;
+  ByteInput in_;
   uint32_t code_ = 0;
   uint32_t range_ = 0xFFFFFFFF;
 };

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "entropy/byte_input.h"
+
 namespace reeb {
 
 /// Appends integers of 0 to 32 bits, the lowest bit first, to bytes filled from their lowest bit.
@@ -40,13 +42,12 @@ class RawBitWriter {
 
 class RawBitReader {
  public:
-  explicit RawBitReader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+  explicit RawBitReader(std::span<const uint8_t> bytes) : in_(bytes) {}
 
   /// Reads `count` (0 .. 32) bits; the first argument is ignored. Past the end there are zeros.
   uint32_t code(uint32_t /*value*/, uint32_t count) {
     while (used_ < count) {
-      const size_t at = position_++;
-      held_ |= uint64_t{at < bytes_.size() ? bytes_[at] : uint8_t{0}} << used_;
+      held_ |= uint64_t{in_.next()} << used_;
       used_ += 8;
     }
     const auto value = static_cast<uint32_t>(held_ & ((uint64_t{1} << count) - 1));
@@ -56,13 +57,12 @@ class RawBitReader {
   }
 
   /// True once more bits were read than there are.
-  bool overrun() const { return position_ > bytes_.size(); }
+  bool overrun() const { return in_.taken() > in_.size(); }
   /// True where all bytes are read and the bits left of the last one are 0.
-  bool at_end() const { return position_ == bytes_.size() && held_ == 0; }
+  bool at_end() const { return in_.taken() == in_.size() && held_ == 0; }
 
  private:
-  std::span<const uint8_t> bytes_;
-  size_t position_ = 0;
+  ByteInput in_;
   uint64_t held_ = 0;
   uint32_t used_ = 0;
 };

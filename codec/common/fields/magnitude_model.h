@@ -9,6 +9,7 @@
 
 #include "codec/common/base/coding_tools.h"
 #include "entropy/buckets.h"
+#include "entropy/integer_coder.h"
 #include "entropy/mixer.h"
 
 namespace reeb {
@@ -152,7 +153,7 @@ class MagnitudeModel {
 
  private:
   static constexpr uint32_t kEscapeClasses = 8;
-  static constexpr uint32_t kEscapeLengths = 56;
+  static constexpr uint32_t kMaxEscapeLength = 55;
   static constexpr uint32_t kMantissaBits = 24;
   static constexpr uint32_t kEscapeLimit = 30;
 
@@ -170,25 +171,11 @@ class MagnitudeModel {
     return made;
   }
 
-  /// The low `count` bits of a value, most significant first.
-  template <class Coder>
-  static uint64_t code_evenly(Coder& coder, uint32_t count, uint64_t value) {
-    uint64_t coded = 0;
-    for (uint32_t i = count; i-- > 0;) {
-      coded = coded << 1 | (coder.code((value >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
-    }
-    return coded;
-  }
-
   template <class Coder>
   uint64_t code_escape(Coder& coder, uint32_t escape_class, uint64_t excess) {
     const uint64_t target = excess + 1;
     const auto wanted = static_cast<uint32_t>(std::bit_width(target)) - 1;
-    auto& lengths = escape_[escape_class];
-    uint32_t length = 0;
-    while (length < kEscapeLengths - 1 &&
-           lengths[length].code(coder, length < wanted, kEscapeLimit))
-      ++length;
+    const uint32_t length = code_unary(coder, escape_[escape_class], wanted, kEscapeLimit);
     const uint32_t dropped = std::max(length, kMantissaBits) - kMantissaBits;
     const uint64_t mantissa = code_evenly(coder, length - dropped, target >> dropped);
     return ((uint64_t{1} << length) | mantissa << dropped) - 1;
@@ -196,7 +183,7 @@ class MagnitudeModel {
 
   std::array<AdaptiveBit, kCalmClasses> calm_;
   Mixer mixer_;
-  std::array<std::array<AdaptiveBit, kEscapeLengths>, kEscapeClasses> escape_;
+  std::array<std::array<AdaptiveBit, kMaxEscapeLength>, kEscapeClasses> escape_;
 };
 
 }  // namespace reeb

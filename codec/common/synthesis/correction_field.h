@@ -10,6 +10,7 @@
 
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/synthesis/corrections.h"
+#include "entropy/integer_coder.h"
 #include "entropy/mixer.h"
 
 namespace reeb {
@@ -88,13 +89,13 @@ class CorrectionField {
     Correction out;
     out.replaced = length == kLengths;
     if (out.replaced) {
-      const uint64_t bits = code_bits(coder, 32, std::bit_cast<uint32_t>(wanted.value));
+      const uint64_t bits = code_evenly(coder, 32, std::bit_cast<uint32_t>(wanted.value));
       out.value = std::bit_cast<float>(static_cast<uint32_t>(bits));
       return out;
     }
     const auto size = static_cast<uint64_t>(wanted.steps < 0 ? -wanted.steps : wanted.steps);
     const uint64_t low = uint64_t{1} << length;
-    out.steps = static_cast<int64_t>(low | code_bits(coder, length, size & (low - 1)));
+    out.steps = static_cast<int64_t>(low | code_evenly(coder, length, size & (low - 1)));
     const SignMixer::Prediction negative = predict_negative(at);
     const bool is_negative = coder.code(wanted.steps < 0, negative.p1);
     sign_.update(negative, is_negative);
@@ -108,18 +109,7 @@ class CorrectionField {
     const auto size = static_cast<uint64_t>(wanted.steps < 0 ? -wanted.steps : wanted.steps);
     const uint32_t full =
         wanted.replaced ? kLengths : static_cast<uint32_t>(std::bit_width(size | 1)) - 1;
-    auto& lengths = length_[length_context(at)];
-    uint32_t length = 0;
-    while (length < kLengths && lengths[length].code(coder, length < full)) ++length;
-    return length;
-  }
-
-  template <class Coder>
-  static uint64_t code_bits(Coder& coder, uint32_t count, uint64_t value) {
-    uint64_t coded = 0;
-    for (uint32_t i = count; i-- > 0;)
-      coded = coded << 1 | (coder.code((value >> i & 1) != 0, kEvenOdds) ? 1u : 0u);
-    return coded;
+    return code_unary(coder, length_[length_context(at)], full);
   }
 
   void begin_row(uint32_t row);
