@@ -59,6 +59,19 @@ uint32_t code(int32_t expected, Reaches reaches) {
 }
 }  // namespace length_walk
 
+/// Codes a difference by its bit length, `code_length(wanted)`, and what tells it from others of
+/// that length, `code_rest(length, size)`. True, and `n` is it, unless a number outside the set
+/// follows.
+template <class CodeLength, class CodeRest>
+bool code_by_length(bool escape, int64_t& n, CodeLength code_length, CodeRest code_rest) {
+  const auto size = static_cast<uint64_t>(n < 0 ? -n : n);
+  const uint32_t length =
+      code_length(escape ? length_walk::kEscape : static_cast<uint32_t>(std::bit_width(size)));
+  if (length == length_walk::kEscape) return false;
+  n = length == 0 ? 0 : code_rest(length, size);
+  return true;
+}
+
 /// The low `count` (0 .. 41) bits of a size, as raw bits.
 template <class Raw>
 uint64_t code_raw(Raw& raw, uint64_t size, uint32_t count) {
@@ -76,21 +89,16 @@ class RankModel {
  public:
   RankModel();
 
-  /// Codes and learns a difference; true, and `n` is it, unless a number outside the set follows.
+  /// Codes and learns a difference; see code_by_length.
   template <class Bits, class Raw>
   bool code(Bits& bits, Raw& raw, const DifferenceContext& c, bool escape, int64_t& n) {
-    const auto size = static_cast<uint64_t>(n < 0 ? -n : n);
-    const auto wanted = escape ? length_walk::kEscape : static_cast<uint32_t>(std::bit_width(size));
-    const uint32_t length = code_length(bits, c, wanted);
-    if (length == length_walk::kEscape) return false;
-    if (length == 0) {
-      n = 0;
-      return true;
-    }
-    const bool negative = sign_[sign_context(c)].code(bits, n < 0, kSignLimit);
-    const uint64_t coded = code_places(bits, raw, c, length, size);
-    n = negative ? -static_cast<int64_t>(coded) : static_cast<int64_t>(coded);
-    return true;
+    const auto length = [&](uint32_t wanted) { return code_length(bits, c, wanted); };
+    const auto rest = [&](uint32_t bit_length, uint64_t size) {
+      const bool negative = sign_[sign_context(c)].code(bits, n < 0, kSignLimit);
+      const auto coded = static_cast<int64_t>(code_places(bits, raw, c, bit_length, size));
+      return negative ? -coded : coded;
+    };
+    return code_by_length(escape, n, length, rest);
   }
 
  private:
@@ -150,22 +158,19 @@ class QuickRankModel {
   /// See RankModel::code.
   template <class Bits, class Raw>
   bool code(Bits& bits, Raw& raw, const DifferenceContext& c, bool escape, int64_t& n) {
-    const auto size = static_cast<uint64_t>(n < 0 ? -n : n);
-    const auto wanted = escape ? length_walk::kEscape : static_cast<uint32_t>(std::bit_width(size));
     auto& models = lengths_[std::min<uint32_t>(static_cast<uint32_t>(c.expected) / 2, kSizes - 1)];
-    const uint32_t length = length_walk::code(c.expected, [&](uint32_t least, uint32_t step) {
-      return models[step].code(bits, wanted >= least, kLimit);
-    });
-    if (length == length_walk::kEscape) return false;
-    if (length == 0) {
-      n = 0;
-      return true;
-    }
-    // The sign stands where the leading one would.
-    const uint64_t one = uint64_t{1} << (length - 1);
-    const uint64_t coded = code_raw(raw, n < 0 ? size : size - one, length);
-    n = coded >= one ? -static_cast<int64_t>(coded) : static_cast<int64_t>(coded + one);
-    return true;
+    const auto length = [&](uint32_t wanted) {
+      return length_walk::code(c.expected, [&](uint32_t least, uint32_t step) {
+        return models[step].code(bits, wanted >= least, kLimit);
+      });
+    };
+    const auto rest = [&](uint32_t bit_length, uint64_t size) {
+      // The sign stands where the leading one would.
+      const uint64_t one = uint64_t{1} << (bit_length - 1);
+      const uint64_t coded = code_raw(raw, n < 0 ? size : size - one, bit_length);
+      return coded >= one ? -static_cast<int64_t>(coded) : static_cast<int64_t>(coded + one);
+    };
+    return code_by_length(escape, n, length, rest);
   }
 
  private:
