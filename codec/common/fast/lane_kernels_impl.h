@@ -7,6 +7,7 @@
 #endif
 
 #include "codec/common/fast/lane_kernels.h"
+#include "codec/common/fast/magnitude_vectors_impl.h"
 #include "codec/common/simd/instruction_set.h"
 #include "codec/common/simd/vectors_impl.h"
 
@@ -38,42 +39,33 @@ inline LanesF predict_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
 }
 
 /// The mean magnitude in the ring, in 1/16; `other` where there is none.
-inline LanesU near_lanes(const LaneBlock& b, uint32_t row, uint32_t first, const LanesU& other) {
+inline LanesI near_lanes(const LaneBlock& b, uint32_t row, uint32_t first, const LanesI& other) {
   const uint32_t* neighbour = elements(b.rows[row].neighbour);
   const uint32_t ring = b.rows[row].ring;
   if (ring == 0) return other;
   Lanes16 sum{};
   for (uint32_t i = 0; i < ring; ++i)
     sum += load<Lanes16>(b.magnitudes + size_t{neighbour[i]} * kRansLanes + first);
-  return __builtin_convertvector(sum, LanesU) * (65536 / ring) >> 12;
+  return mean_magnitude(__builtin_convertvector(sum, LanesI), ring);
 }
 
-/// Classes by the expected magnitude, half an octave each. A row's history tells more than its ring
-/// does, once there is any.
+/// A row's history tells more than its ring does, once there is any.
 inline LanesU classify_lanes(const LaneBlock& b, uint32_t row, uint32_t first) {
-  const LanesU running = load<LanesU>(b.before + first) >> 4;
-  const LanesU expected = b.history != nullptr
-                              ? (6 * running + 10 * b.history[row]) >> 4
-                              : (10 * near_lanes(b, row, first, running) + 6 * running) >> 4;
-  const LanesF size = __builtin_convertvector(reinterpret_cast<LanesI>(expected + 1), LanesF);
-  const LanesU cls = (reinterpret_cast<LanesU>(size) >> 22) - 254;
-  return cls < kRansClasses - 1 ? cls : LanesU{} + (kRansClasses - 1);
+  const LanesI recent = load<LanesI>(b.before + first) >> 4;
+  const LanesI near = b.history != nullptr ? LanesI{} + static_cast<int32_t>(b.history[row])
+                                           : near_lanes(b, row, first, recent);
+  return reinterpret_cast<LanesU>(magnitude_class(expected_magnitude(near, recent)));
 }
 
 inline void note_vectors(LaneBlock& b, uint32_t row, uint32_t first, const LanesF& prediction,
                          const LanesI& n) {
-  constexpr int32_t kMaxMagnitude = 255;
   const size_t at = size_t{row} * kRansLanes + first;
-  const LanesF value = prediction + __builtin_convertvector(n, LanesF) * b.steps[row];
-  std::memcpy(b.values + at, &value, sizeof value);
-  const LanesI size = n < 0 ? -n : n;
-  const LanesI capped = size < kMaxMagnitude ? size : LanesI{} + kMaxMagnitude;
-  const auto magnitude = __builtin_convertvector(capped, Lanes16);
-  std::memcpy(b.magnitudes + at, &magnitude, sizeof magnitude);
-  LanesU running = load<LanesU>(b.running + first);
-  std::memcpy(b.before + first, &running, sizeof running);
-  running += reinterpret_cast<LanesU>(capped) * 32 - (running >> 3);
-  std::memcpy(b.running + first, &running, sizeof running);
+  store(b.values + at, prediction + __builtin_convertvector(n, LanesF) * b.steps[row]);
+  const LanesI magnitude = noted_magnitude(n);
+  store(b.magnitudes + at, __builtin_convertvector(magnitude, Lanes16));
+  const auto running = load<LanesI>(b.running + first);
+  store(b.before + first, running);
+  store(b.running + first, decayed(running, magnitude));
 }
 
 LaneGuess guess_lanes(const LaneBlock& b, uint32_t row) {

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "entropy/rans.h"
+#include "codec/common/fast/magnitude_vectors_impl.h"
 
 namespace reeb {
 
@@ -31,14 +31,6 @@ constexpr std::array<float, 2 * MeshWalk::kMaxKnown + 1> make_shares() {
 }
 constexpr auto kShares = make_shares();  ///< 1 / i
 
-/// Half an octave each, as in a lane field.
-Whole classify(const Whole& expected) {
-  constexpr auto kLast = static_cast<int32_t>(kRansClasses) - 1;
-  const Reals size = __builtin_convertvector(expected + 1, Reals);
-  const Whole cls = (reinterpret_cast<Whole>(size) >> 22) - 254;
-  return cls < kLast ? cls : Whole{} + kLast;
-}
-
 /// sum / count, rounded to the nearest.
 Whole mean(const Whole& sum, uint32_t count) {
   constexpr float kRound = 12582912.0f;  // 3 * 2^22: leaves no fraction
@@ -47,7 +39,7 @@ Whole mean(const Whole& sum, uint32_t count) {
 }
 
 PlainPositions::Guess make_guess(const Whole& place, const Whole& expected) {
-  return {stored(place), stored(classify(expected))};
+  return {stored(place), stored(magnitude_class(expected))};
 }
 
 }  // namespace
@@ -70,8 +62,8 @@ PlainPositions::Guess PlainPositions::guess(uint32_t turn) const {
   }
   const auto ends = 2 * static_cast<uint32_t>(triangles.size());
   const Whole recent = load(running_) >> 4;
-  const Whole near = ends == 0 ? recent : (around * static_cast<int32_t>(65536 / ends)) >> 12;
-  const Whole usual = (10 * near + 6 * recent) >> 4;
+  const Whole near = ends == 0 ? recent : mean_magnitude(around, ends);
+  const Whole usual = expected_magnitude(near, recent);
   if (count > 1) return make_guess(mean(tips, count), (5 * usual + 32 * (most - least)) >> 3);
   if (count == 1) return make_guess(tips, (5 * usual) >> 2);
   if (ends > 0) return make_guess(mean(edges, ends), 2 * usual);
@@ -79,14 +71,10 @@ PlainPositions::Guess PlainPositions::guess(uint32_t turn) const {
 }
 
 void PlainPositions::note(uint32_t turn, const Point& position, const Point& difference) {
-  constexpr int32_t kMaxMagnitude = 255;
   points_[turn] = position;
-  const Whole missed = load(difference);
-  const Whole size = missed < 0 ? -missed : missed;
-  const Whole magnitude = size < kMaxMagnitude ? size : Whole{} + kMaxMagnitude;
-  const Whole running = load(running_);
+  const Whole magnitude = noted_magnitude(load(difference));
   magnitudes_[turn] = stored(magnitude);
-  running_ = stored(running + magnitude * 32 - (running >> 3));
+  running_ = stored(decayed(load(running_), magnitude));
 }
 
 }  // namespace reeb
