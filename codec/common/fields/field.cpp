@@ -94,9 +94,7 @@ void Field::note(uint32_t row, int64_t residual) {
       static_cast<uint32_t>(std::min<uint64_t>(size * plan_->rows[row].step >> 8, kMagnitudeCap));
   magnitude_[row] = magnitude;
   recent_ += magnitude;
-  const uint32_t* to = plan_->uses.to.data();
-  const uint32_t end = plan_->uses.begin[row + 1];
-  for (uint32_t i = plan_->uses.begin[row]; i < end; ++i) near_[to[i] / 2][to[i] % 2] += magnitude;
+  for (const uint32_t use : plan_->uses[row]) near_[use / 2][use % 2] += magnitude;
 }
 
 void Field::finish_component(double energy, bool learns) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "codec/common/base/raw_vector.h"
+#include "codec/common/base/item_lists.h"
 
 namespace reeb {
 namespace {
@@ -14,29 +14,18 @@ struct Corner {
 };
 
 /// The corners at every point, in the order of the triangles.
-class CornerFans {
- public:
-  CornerFans(uint32_t point_count, std::span<const uint32_t> triangles)
-      : first_(size_t{point_count} + 2), corners_(triangles.size()) {
-    for (const uint32_t v : triangles) ++first_[size_t{v} + 2];
-    for (size_t v = 2; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    // Ends up at the next point's first corner.
+using CornerFans = ItemLists<Corner>;
+
+CornerFans find_corners(uint32_t point_count, std::span<const uint32_t> triangles) {
+  return CornerFans(point_count, [&](auto put) {
     for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
       const uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
-      corners_[first_[size_t{a} + 1]++] = {b, c};
-      corners_[first_[size_t{b} + 1]++] = {c, a};
-      corners_[first_[size_t{c} + 1]++] = {a, b};
+      put(a, {b, c});
+      put(b, {c, a});
+      put(c, {a, b});
     }
-  }
-
-  std::span<const Corner> operator[](uint32_t v) const {
-    return std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
-  }
-
- private:
-  std::vector<uint32_t> first_;
-  RawVector<Corner> corners_;
-};
+  });
+}
 
 /// Points waiting for their turn, by the number of their triangles that are known but for them.
 class Waiting {
@@ -99,14 +88,14 @@ std::vector<uint32_t> position_order(uint32_t point_count, std::span<const uint3
   std::vector<uint32_t> order;
   order.reserve(point_count);
   walk(
-      CornerFans(point_count, triangles), point_count,
+      find_corners(point_count, triangles), point_count,
       [&](uint32_t point) { order.push_back(point); }, [](const auto&, uint32_t, uint32_t) {});
   return order;
 }
 
 MeshWalk walk_mesh(uint32_t point_count, std::span<const uint32_t> triangles) {
   constexpr size_t kSearched = 16;  // corners of a point: a bound for meshes that are all one fan
-  const CornerFans fans(point_count, triangles);
+  const CornerFans fans = find_corners(point_count, triangles);
   MeshWalk out;
   out.order.reserve(point_count);
   out.first.reserve(size_t{point_count} + 1);

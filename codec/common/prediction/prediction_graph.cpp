@@ -22,21 +22,13 @@ constexpr std::array<uint32_t, kStepLevels> make_step_table() {
 constexpr std::array<uint32_t, kStepLevels> kStepTable = make_step_table();
 
 RowUses find_uses(const PredictionGraph& graph) {
-  const uint32_t n = graph.size();
-  RowUses out;
-  out.begin.assign(n + 1, 0);
-  for (const PredictionGraph::Row& row : graph.rows) {
-    for (uint32_t i = 0; i < row.count; ++i) ++out.begin[row.neighbour[i] + 1];
-  }
-  for (uint32_t r = 0; r < n; ++r) out.begin[r + 1] += out.begin[r];
-  out.to.resize(out.begin[n]);
-  std::vector<uint32_t> next(out.begin.begin(), out.begin.end() - 1);
-  for (uint32_t r = 0; r < n; ++r) {
-    const PredictionGraph::Row& row = graph.rows[r];
-    for (uint32_t i = 0; i < row.count; ++i)
-      out.to[next[row.neighbour[i]]++] = 2 * r + (i < row.ring ? 1 : 0);
-  }
-  return out;
+  return RowUses(graph.size(), [&](auto put) {
+    for (uint32_t r = 0; r < graph.size(); ++r) {
+      const PredictionGraph::Row& row = graph.rows[r];
+      for (uint32_t i = 0; i < row.count; ++i)
+        put(row.neighbour[i], 2 * r + (i < row.ring ? 1 : 0));
+    }
+  });
 }
 
 }  // namespace reeb

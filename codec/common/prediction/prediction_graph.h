@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/common/base/item_lists.h"
 #include "codec/common/base/raw_vector.h"
 #include "codec/common/mesh/grid.h"
 
@@ -41,12 +42,8 @@ struct PredictionGraph {
 inline constexpr uint32_t kStepLevels = 192;
 extern const std::array<uint32_t, kStepLevels> kStepTable;
 
-/// Rows that each row is a neighbour of: of row r, to[begin[r] .. begin[r+1]), each times 2, plus 1
-/// where r is in its ring.
-struct RowUses {
-  std::vector<uint32_t> begin;
-  std::vector<uint32_t> to;
-};
+/// Rows that each row is a neighbour of, each times 2, plus 1 where that is in its ring.
+using RowUses = ItemLists<uint32_t>;
 RowUses find_uses(const PredictionGraph& graph);
 
 struct SurfaceGraph {

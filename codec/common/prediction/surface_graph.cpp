@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "codec/common/base/coding_tools.h"
+#include "codec/common/base/item_lists.h"
 #include "codec/common/prediction/collapse.h"
 #include "codec/common/prediction/nearest.h"
 #include "codec/common/prediction/prediction_graph.h"
@@ -90,21 +91,15 @@ class SurfaceGraphBuilder {
   /// Vertices on an edge of one triangle: others may lie at the same place,
   /// moving alike.
   void mark_boundary(std::span<const uint32_t> triangles) {
-    const auto ends = [&](size_t i) {
-      return std::minmax(triangles[i], triangles[i % 3 == 2 ? i - 2 : i + 1]);
-    };
-    std::vector<uint32_t> begin(points_.size() + 1, 0);  // of the edges by their lower end
-    for (size_t i = 0; i < triangles.size(); ++i) ++begin[ends(i).first + 1];
-    for (size_t v = 0; v < points_.size(); ++v) begin[v + 1] += begin[v];
-    std::vector<uint32_t> higher(triangles.size());
-    std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
-    for (size_t i = 0; i < triangles.size(); ++i) {
-      const auto [low, high] = ends(i);
-      higher[next[low]++] = high;
-    }
+    const ItemLists<uint32_t> higher_ends(points_.size(), [&](auto put) {
+      for (size_t i = 0; i < triangles.size(); ++i) {
+        const auto [low, high] = std::minmax(triangles[i], triangles[i % 3 == 2 ? i - 2 : i + 1]);
+        put(low, high);
+      }
+    });
     std::vector<uint32_t> count(points_.size(), 0);  // of the edges between v and each
     for (size_t v = 0; v < points_.size(); ++v) {
-      const std::span<uint32_t> edges(higher.data() + begin[v], begin[v + 1] - begin[v]);
+      const std::span<const uint32_t> edges = higher_ends[v];
       for (const uint32_t u : edges) ++count[u];
       for (const uint32_t u : edges) {
         if (count[u] == 1) boundary_[v] = boundary_[u] = true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "codec/common/base/item_lists.h"
 #include "codec/common/base/parallel.h"
 
 namespace reeb {
@@ -49,12 +50,10 @@ void prefetch(const Row& row) {
 }
 
 std::vector<uint32_t> rows_by_count(const PredictionGraph& graph) {
-  std::array<uint32_t, kMaxNeighbours + 2> begin{};
-  for (const PredictionGraph::Row& row : graph.rows) ++begin[row.count + 1u];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<uint32_t> rows(graph.size());
-  for (uint32_t r = 0; r < graph.size(); ++r) rows[begin[graph.rows[r].count]++] = r;
-  return rows;
+  const ItemLists<uint32_t> by_count(kMaxNeighbours + 1, [&](auto put) {
+    for (uint32_t r = 0; r < graph.size(); ++r) put(graph.rows[r].count, r);
+  });
+  return {by_count.items().begin(), by_count.items().end()};
 }
 
 }  // namespace

@@ -92,8 +92,8 @@ void MotionFit::fit_weights() {
     Eigen::VectorXd
         residual;  // of the primary region alone; computed where there is a neighbour region
     double best = 0;
-    for (uint32_t i = links.begin[row]; i < links.begin[row + 1]; ++i) {
-      const RegionBinding& other = before[links.links[i]];
+    for (const uint32_t linked : links[row]) {
+      const RegionBinding& other = before[linked];
       for (const uint32_t region : {other.primary, other.secondary}) {
         if (region == binding.primary || (region == other.secondary && other.weight == 0)) continue;
         if (residual.size() == 0) {

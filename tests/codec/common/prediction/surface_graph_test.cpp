@@ -92,8 +92,7 @@ TEST_CASE("uses are the neighbours seen from the other side", "[surface_graph]")
     for (uint32_t r = 0; r < g.size(); ++r) {
       for (uint32_t i = 0; i < g.rows[r].count; ++i)
         expected.emplace(g.rows[r].neighbour[i], r, i < g.rows[r].ring);
-      for (uint32_t i = uses.begin[r]; i < uses.begin[r + 1]; ++i)
-        found.emplace(r, uses.to[i] / 2, uses.to[i] % 2 != 0);
+      for (const uint32_t use : uses[r]) found.emplace(r, use / 2, use % 2 != 0);
     }
     CHECK(found == expected);
   }
