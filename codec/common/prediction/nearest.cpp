@@ -7,6 +7,7 @@
 namespace reeb {
 
 namespace {
+constexpr uint32_t kNone = UINT32_MAX;
 constexpr uint32_t kLeafSize = 8;
 constexpr uint32_t kFew = 128;  ///< earlier vertices that are all tried
 /// Vertices that may be tried for each of the tree before that is made: about what it takes.
@@ -26,74 +27,102 @@ struct EarlierNeighbours::Query {
   }
 };
 
+uint64_t EarlierNeighbours::Box::distance2(const int32_t* p) const {
+  uint64_t sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int64_t beyond =
+        std::max({int64_t{least[a]} - p[a], int64_t{p[a]} - most[a], int64_t{0}});
+    sum += static_cast<uint64_t>(beyond * beyond);
+  }
+  return sum;
+}
+
 void EarlierNeighbours::build() {
   items_.resize(points_.size());
   std::iota(items_.begin(), items_.end(), 0u);
-  build(0, points_.size());
+  leaf_of_.resize(points_.size());
+  build(0, points_.size(), 0);
 }
 
-uint32_t EarlierNeighbours::build(uint32_t begin, uint32_t end) {
-  const auto id = static_cast<uint32_t>(nodes_.size());
-  Node node{begin, end, UINT32_MAX, 0, 0, 0, 0};
-  int32_t low[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
-  int32_t high[3] = {INT32_MIN, INT32_MIN, INT32_MIN};
+EarlierNeighbours::Box EarlierNeighbours::bound(uint32_t begin, uint32_t end) const {
+  Box box{begin, end, kNone, 0, {0, 0}, {0xFFFF, 0xFFFF, 0xFFFF}, {0, 0, 0}};
   for (uint32_t i = begin; i < end; ++i) {
-    node.min_rank = std::min(node.min_rank, rank_[items_[i]]);
     for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], points_[items_[i]][a]);
-      high[a] = std::max(high[a], points_[items_[i]][a]);
+      const auto x = static_cast<uint16_t>(points_[items_[i]][a]);
+      box.least[a] = std::min(box.least[a], x);
+      box.most[a] = std::max(box.most[a], x);
     }
   }
-  for (int a = 1; a < 3; ++a) {
-    if (high[a] - low[a] > high[node.axis] - low[node.axis]) node.axis = a;
+  return box;
+}
+
+uint32_t EarlierNeighbours::build(uint32_t begin, uint32_t end, uint32_t parent) {
+  const auto id = static_cast<uint32_t>(boxes_.size());
+  boxes_.push_back(bound(begin, end));
+  boxes_[id].parent = parent;
+  if (end - begin <= kLeafSize) {
+    for (uint32_t i = begin; i < end; ++i) leaf_of_[items_[i]] = id;
+    return id;
   }
-  nodes_.push_back(node);
-  if (end - begin <= kLeafSize) return id;
+  const auto extent = [&](int a) { return boxes_[id].most[a] - boxes_[id].least[a]; };
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) axis = extent(a) > extent(axis) ? a : axis;
   const uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                    [&](uint32_t a, uint32_t b) {
-                     return std::pair(points_[a][node.axis], a) <
-                            std::pair(points_[b][node.axis], b);
+                     return std::pair(points_[a][axis], a) < std::pair(points_[b][axis], b);
                    });
-  const int32_t split = points_[items_[middle]][node.axis];
-  const uint32_t left = build(begin, middle);
-  const uint32_t right = build(middle, end);
-  nodes_[id].left = left;
-  nodes_[id].right = right;
-  nodes_[id].split = split;
+  const uint32_t low = build(begin, middle, id);
+  const uint32_t high = build(middle, end, id);
+  boxes_[id].children[0] = low;
+  boxes_[id].children[1] = high;
   return id;
 }
 
-void EarlierNeighbours::try_vertex(uint32_t u, Query& query) const {
+void EarlierNeighbours::admit(uint32_t rank) {
+  for (; admitted_ < rank; ++admitted_) {
+    const uint32_t v = order_[admitted_];
+    for (uint32_t box = leaf_of_[v]; boxes_[box].lowest > v; box = boxes_[box].parent) {
+      boxes_[box].lowest = v;
+    }
+  }
+}
+
+void EarlierNeighbours::try_vertex(uint32_t u, Query& query) {
+  ++work_;
   const Candidate c{points_.distance2(query.vertex, u), u};
   if (query.improves(c)) query.add(c);
 }
 
-void EarlierNeighbours::visit(uint32_t id, Query& query) const {
-  const Node& node = nodes_[id];
-  if (node.min_rank >= rank_[query.vertex]) return;
-  if (node.left == 0) {
-    for (uint32_t i = node.begin; i < node.end; ++i) {
+void EarlierNeighbours::visit(uint32_t id, Query& query) {
+  ++work_;
+  const Box& box = boxes_[id];
+  if (box.children[0] == 0) {
+    for (uint32_t i = box.begin; i < box.end; ++i) {
       if (rank_[items_[i]] < rank_[query.vertex]) try_vertex(items_[i], query);
     }
     return;
   }
-  const int64_t offset = int64_t{points_[query.vertex][node.axis]} - node.split;
-  visit(offset < 0 ? node.left : node.right, query);
-  const auto gap = static_cast<uint64_t>(offset * offset);
-  if (query.best.size() < query.k || gap <= query.best.back().first) {
-    visit(offset < 0 ? node.right : node.left, query);
+  // No vertex of a box is better than one at its nearest point with its lowest index.
+  std::pair<Candidate, uint32_t> next[2];
+  for (int i = 0; i < 2; ++i) {
+    const Box& child = boxes_[box.children[i]];
+    next[i] = {{child.distance2(points_[query.vertex]), child.lowest}, box.children[i]};
+  }
+  if (next[1] < next[0]) std::swap(next[0], next[1]);
+  for (const auto& [bound, child] : next) {
+    if (bound.second != kNone && query.improves(bound)) visit(child, query);
   }
 }
 
 std::vector<uint32_t> EarlierNeighbours::find(uint32_t v, uint32_t k) {
   Query query{v, k, {}};
-  const bool spares_tree = nodes_.empty() && tried_ <= kWorthATree * points_.size();
+  const bool spares_tree = boxes_.empty() && work_ <= kWorthATree * points_.size();
   if (rank_[v] <= kFew || spares_tree) {
-    tried_ += rank_[v];
     for (uint32_t r = 0; r < rank_[v]; ++r) try_vertex(order_[r], query);
   } else {
-    if (nodes_.empty()) build();
+    if (boxes_.empty()) build();
+    admit(rank_[v]);
     visit(0, query);
   }
   std::vector<uint32_t> out;

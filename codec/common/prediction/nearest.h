@@ -9,8 +9,9 @@
 namespace reeb {
 
 /// Tries all vertices where they are few, or queries are; else by a k-d tree over the vertices of
-/// the reference mesh, made when first needed. Every node knows the lowest rank (position in the
-/// coding order) below it, so that a query skips what is not decoded yet.
+/// the reference mesh, made when first needed. A box of the tree knows the lowest of its vertices
+/// that is decoded, so that neither vertices to come nor equal distances, of any number of vertices
+/// at one place, make a query look at more than it must.
 class EarlierNeighbours {
  public:
   /// `order`: the vertices in coding order; `rank[v]`: place of vertex v there. All must outlive
@@ -19,30 +20,40 @@ class EarlierNeighbours {
                     const std::vector<uint32_t>& rank)
       : points_(points), order_(order), rank_(rank) {}
 
-  /// Up to `k` vertices of lower rank nearest to v, nearest first, ties by index.
+  /// Up to `k` vertices of lower rank nearest to v, nearest first, ties by index. Pre-condition: no
+  /// vertex of higher rank was asked for before.
   std::vector<uint32_t> find(uint32_t v, uint32_t k);
 
+  /// Vertices and boxes that were looked at.
+  uint64_t work() const { return work_; }
+
  private:
-  struct Node {
-    uint32_t begin, end;  ///< range of items_
-    uint32_t min_rank;
-    uint32_t left, right;  ///< children; 0 for a leaf
-    int axis;
-    int32_t split;
+  struct Box {
+    uint32_t begin, end;         ///< range of items_
+    uint32_t lowest;             ///< of its vertices that are decoded; kNone without any
+    uint32_t parent;             ///< the root is its own
+    uint32_t children[2];        ///< 0 for a leaf
+    uint16_t least[3], most[3];  ///< of the coordinates
+    uint64_t distance2(const int32_t* p) const;
   };
   struct Query;
 
   void build();
-  uint32_t build(uint32_t begin, uint32_t end);
-  void try_vertex(uint32_t u, Query& query) const;
-  void visit(uint32_t node, Query& query) const;
+  uint32_t build(uint32_t begin, uint32_t end, uint32_t parent);
+  Box bound(uint32_t begin, uint32_t end) const;
+  /// Lets the vertices before this rank be found.
+  void admit(uint32_t rank);
+  void try_vertex(uint32_t u, Query& query);
+  void visit(uint32_t box, Query& query);
 
   const GridPoints& points_;
   const std::vector<uint32_t>& order_;
   const std::vector<uint32_t>& rank_;
   std::vector<uint32_t> items_;
-  std::vector<Node> nodes_;  ///< empty before the tree is needed
-  uint64_t tried_ = 0;       ///< vertices, without a tree
+  std::vector<Box> boxes_;         ///< empty before the tree is needed
+  std::vector<uint32_t> leaf_of_;  ///< of every vertex
+  uint32_t admitted_ = 0;          ///< rank of the first vertex that the tree does not find yet
+  uint64_t work_ = 0;
 };
 
 }  // namespace reeb

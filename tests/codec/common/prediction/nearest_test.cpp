@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -29,7 +30,7 @@ void check(const std::vector<int32_t>& xyz, std::mt19937& random) {
   std::vector<uint32_t> order(rank.size());
   for (uint32_t v = 0; v < rank.size(); ++v) order[rank[v]] = v;
   EarlierNeighbours nearest(points, order, rank);
-  for (uint32_t v = 0; v < points.size(); ++v) {
+  for (const uint32_t v : order) {
     for (const uint32_t k : {1u, 5u, 16u})
       REQUIRE(nearest.find(v, k) == brute_force(points, rank, v, k));
   }
@@ -44,6 +45,69 @@ TEST_CASE("nearest earlier vertices are those of a full search", "[nearest]") {
       std::vector<int32_t> xyz(3 * count);
       for (int32_t& x : xyz) x = static_cast<int32_t>(random() % range);
       check(xyz, random);
+    }
+  }
+}
+
+namespace {
+
+/// Work of a query for each vertex in turn, `order` being their coding order.
+double work_of_all(const std::vector<int32_t>& xyz, const std::vector<uint32_t>& order) {
+  const GridPoints points(xyz);
+  std::vector<uint32_t> rank(order.size());
+  for (uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+  EarlierNeighbours nearest(points, order, rank);
+  for (const uint32_t v : order) nearest.find(v, 16);
+  return static_cast<double>(nearest.work()) / static_cast<double>(order.size());
+}
+
+/// The points that a sphere of the greatest radius has on the grid: all at the same distance.
+std::vector<int32_t> on_sphere(size_t count) {
+  constexpr int64_t kRadius2 = int64_t{32760} * 32760 + 14 * 14 * 49;
+  std::vector<int32_t> out;
+  for (int64_t x = -32767; x <= 32767 && out.size() < 3 * count; x += 7) {
+    for (int64_t y = -32767; y <= 32767 && out.size() < 3 * count; ++y) {
+      const int64_t rest = kRadius2 - x * x - y * y;
+      if (rest < 0) continue;
+      const auto z = static_cast<int64_t>(std::sqrt(static_cast<double>(rest)));
+      if (z * z != rest) continue;
+      for (const int64_t c : {x, y, z}) out.push_back(static_cast<int32_t>(c + 32767));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("no arrangement of vertices makes the search slow", "[nearest]") {
+  constexpr uint32_t kCount = 8000;
+  constexpr double kMaxWork = 300;  // for each vertex; a search of all would take 4000
+  std::mt19937 random(3);
+  std::vector<uint32_t> rising(kCount);
+  std::iota(rising.begin(), rising.end(), 0u);
+  std::vector<uint32_t> falling(rising.rbegin(), rising.rend());
+  std::vector<uint32_t> shuffled = rising;
+  std::shuffle(shuffled.begin(), shuffled.end(), random);
+  std::vector<std::vector<int32_t>> arrangements;
+  arrangements.emplace_back(3 * kCount, 9);  // one place
+  for (const uint32_t places : {2u, 17u, 1000u}) {
+    std::vector<int32_t>& xyz = arrangements.emplace_back();
+    for (uint32_t v = 0; v < kCount; ++v)
+      for (uint32_t a = 0; a < 3; ++a) xyz.push_back(static_cast<int32_t>(v % places * 65));
+  }
+  for (const uint32_t axes : {1u, 2u, 3u}) {  // a line, a plane, a cube of random points
+    std::vector<int32_t>& xyz = arrangements.emplace_back();
+    for (uint32_t v = 0; v < kCount; ++v)
+      for (uint32_t a = 0; a < 3; ++a)
+        xyz.push_back(a < axes ? static_cast<int32_t>(random() % 65536) : 0);
+  }
+  std::vector<int32_t>& sphere = arrangements.emplace_back(on_sphere(kCount / 2));
+  REQUIRE(sphere.size() > 3 * 100);
+  while (sphere.size() < 3 * kCount) sphere.push_back(32767);  // the others at its centre
+  for (size_t i = 0; i < arrangements.size(); ++i) {
+    for (const auto& order : {rising, falling, shuffled}) {
+      INFO("arrangement " << i << ", from " << order[0]);
+      CHECK(work_of_all(arrangements[i], order) < kMaxWork);
     }
   }
 }
