@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace reeb {
 namespace {
@@ -12,10 +13,13 @@ constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// do all that lie where it does. No mesh can make this slow.
 constexpr uint32_t kMaxTries = 32;
 
+uint64_t place_of(const int32_t* xyz) {
+  return static_cast<uint64_t>(xyz[0]) << 32 | static_cast<uint64_t>(xyz[1]) << 16 |
+         static_cast<uint64_t>(xyz[2]);
+}
+
 uint32_t hash(const int32_t* xyz) {
-  const uint64_t place = static_cast<uint64_t>(xyz[0]) << 32 | static_cast<uint64_t>(xyz[1]) << 16 |
-                         static_cast<uint64_t>(xyz[2]);
-  return static_cast<uint32_t>(place * 0x9E3779B97F4A7C15 >> 32);
+  return static_cast<uint32_t>(place_of(xyz) * 0x9E3779B97F4A7C15 >> 32);
 }
 
 }  // namespace
@@ -42,6 +46,23 @@ std::vector<uint8_t> shared_places(std::span<const int32_t> grid) {
     }
   }
   return shared;
+}
+
+// Most points lie alone; sorting the others takes no longer where somebody has chosen their places.
+NumberedPlaces number_places(std::span<const int32_t> grid) {
+  const std::vector<uint8_t> shared = shared_places(grid);
+  std::vector<std::pair<uint64_t, uint32_t>> sorted;  // place, point
+  for (uint32_t p = 0; p < shared.size(); ++p) {
+    if (shared[p] != 0) sorted.emplace_back(place_of(&grid[size_t{p} * 3]), p);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  NumberedPlaces out;
+  out.of_point.assign(shared.size(), NumberedPlaces::kNone);
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i].first != sorted[i - 1].first) ++out.count;
+    out.of_point[sorted[i].second] = out.count - 1;
+  }
+  return out;
 }
 
 }  // namespace reeb

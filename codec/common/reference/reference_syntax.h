@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "bitstream/status.h"
@@ -25,19 +24,22 @@ class SplitSyntax {
   template <class Coder>
   Status code(Coder& coder, MeshState& s) {
     uint32_t vertices = 0;
-    const std::vector<uint8_t> shared = shared_places(s.point_grid);
-    std::vector<uint32_t> alone;
+    const NumberedPlaces places = number_places(s.point_grid);
+    at_place_.resize(places.count);
+    std::vector<uint32_t> none;
     for (uint32_t p = 0; p < s.point_count; ++p) {
-      alone.clear();
-      std::vector<uint32_t>& here =
-          shared[p] != 0 ? at_place_[place(&s.point_grid[size_t{p} * 3])] : alone;
+      none.clear();
+      const uint32_t place = places.of_point[p];
+      std::vector<uint32_t>& here = place == NumberedPlaces::kNone ? none : at_place_[place];
       uint32_t& vertex = slot(s.vertex_of_point, p);
       if (!here.empty() &&
           same_[std::min<size_t>(here.size(), 2) - 1].code(coder, vertex < vertices)) {
         uint32_t back = 0;
         if constexpr (!kDecodes<Coder>) {
-          back =
-              static_cast<uint32_t>(std::find(here.rbegin(), here.rend(), vertex) - here.rbegin());
+          // Vertices rise; one that is new is not there, and not asked for.
+          back = static_cast<uint32_t>(here.end() -
+                                       std::lower_bound(here.begin(), here.end(), vertex)) -
+                 1;
         }
         back = which_.code(coder, back);
         if (back >= here.size()) return Status::corrupt("mesh: a split point joins no vertex");
@@ -56,13 +58,7 @@ class SplitSyntax {
   }
 
  private:
-  static uint64_t place(const int32_t* xyz) {
-    return static_cast<uint64_t>(xyz[0]) << 32 | static_cast<uint64_t>(xyz[1]) << 16 |
-           static_cast<uint64_t>(xyz[2]);
-  }
-
-  // Vertices at places that points share, oldest first.
-  std::unordered_map<uint64_t, std::vector<uint32_t>> at_place_;
+  std::vector<std::vector<uint32_t>> at_place_;  ///< vertices at each, oldest first
   AdaptiveBit same_[2];
   ExpGolombModel which_;
 };
