@@ -1,6 +1,7 @@
-// decode_stream STREAM OUT [THREADS]: decodes every frame, in order, and writes what
+// decode_stream STREAM OUT [THREADS [FLOATS]]: decodes every frame, in order, and writes what
 // conformance/README.md describes. The smallest program around the decoder library, for conformance
-// runs.
+// runs. FLOATS is a state of floating point that a host may have: up, down, zero (rounding) or
+// flush (subnormals become 0).
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 
 #include "bitstream/bytes.h"
 #include "codec/dec/decoder.h"
+#include "conformance/host_floats.h"
 
 namespace {
 
@@ -84,8 +86,8 @@ reeb::Status run(const char* stream, const char* output, unsigned threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3 || argc > 4) {
-    std::fputs("usage: decode_stream STREAM OUT [THREADS]\n", stderr);
+  if (argc < 3 || argc > 5 || (argc == 5 && !reeb::test::set_host_floats(argv[4]))) {
+    std::fputs("usage: decode_stream STREAM OUT [THREADS [up|down|zero|flush]]\n", stderr);
     return 2;
   }
   const unsigned threads = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;

@@ -10,6 +10,7 @@
 
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
+#include "codec/common/base/float_state.h"
 #include "codec/dec/decoder.h"
 
 namespace {
@@ -447,6 +448,7 @@ reeb_result reeb_get_between(reeb_decoder* d, double position, const reeb_target
 }
 
 reeb_result reeb_position_of_time(reeb_decoder* d, double seconds, int loop, double* position) {
+  const reeb::FloatState state;
   return with_info(d, [&](const reeb::StreamInfo& info) {
     const double frames = info.frame_count;
     const double at = seconds * info.frame_rate;

@@ -20,6 +20,10 @@
  * wait for its turn; reeb_close must be the last call, with no other running. Decoders know nothing
  * of each other, and the library has no global state.
  *
+ * **Floating point.** Every call, and every thread of the library, sets the state of the processor
+ * that it needs - rounding to nearest, subnormals kept, no traps - and puts the caller's back, also
+ * where it fails. Callbacks run in the library's state.
+ *
  * **Structs** start with `struct_size`, which the caller sets to its sizeof; later versions of the
  * library only add members at the end, and 0 is their default.
  *

@@ -1,9 +1,11 @@
-// No exception leaves the decoder.
+// What surrounds a call of the decoder: no exception leaves it, and it computes as the
+// specification says, however the host does.
 #pragma once
 
 #include <utility>
 
 #include "bitstream/status.h"
+#include "codec/common/base/float_state.h"
 
 namespace reeb {
 
@@ -11,6 +13,7 @@ namespace reeb {
 /// do, kOutOfMemory.
 template <class Function>
 Status guarded(Function&& function) noexcept {
+  const FloatState state;
   try {
     return std::forward<Function>(function)();
   } catch (...) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "codec/common/base/float_state.h"
 #include "codec/enc/lossless/lossless_sequence.h"
 #include "codec/enc/search/sequence_encoder.h"
 #include "codec/enc/search/snapped_sequence.h"
@@ -72,6 +73,7 @@ Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
 
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
               EncodeStats& stats) {
+  const FloatState state;
   out.clear();
   stats = {};
   if (Status s = check(sequence, options); !s.ok()) return s;

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "codec/common/base/float_state.h"
+
 namespace reeb {
 
 /// Number of threads to use for a request of `threads`, 0 meaning all cores.
@@ -26,6 +28,7 @@ void parallel_ranges(uint32_t count, unsigned threads, Function function) {
   }
   std::vector<std::exception_ptr> failures(parts);
   const auto run = [&](uint32_t part) noexcept {
+    const FloatState state;
     const auto bound = [&](uint32_t p) {
       return static_cast<uint32_t>(uint64_t{count} * p / parts);
     };

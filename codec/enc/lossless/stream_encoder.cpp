@@ -10,6 +10,7 @@
 
 #include "bitstream/container.h"
 #include "bitstream/crc32c.h"
+#include "codec/common/base/float_state.h"
 #include "codec/common/base/parallel.h"
 #include "codec/enc/lossless/lossless_encoder.h"
 
@@ -97,6 +98,7 @@ Status StreamEncoder::Impl::close_group() {
   queue.push_back(
       std::async(resolve_threads(options.threads) > 1 ? std::launch::async : std::launch::deferred,
                  [graph = surface, group = std::move(frames), method = options.method] {
+                   const FloatState state;
                    return encode_lossless_group(*graph, group, method, 1);
                  }));
   frames = {};
@@ -144,12 +146,14 @@ uint64_t StreamEncoder::bytes() const { return impl_->sent; }
 
 Status StreamEncoder::begin(const SequenceHeader& header,
                             const std::vector<MetadataEntry>& metadata) {
+  const FloatState state;
   if (Status s = impl_->writer.begin(header); !s.ok()) return s;
   if (Status s = impl_->writer.metadata(metadata); !s.ok()) return s;
   return impl_->flush();
 }
 
 Status StreamEncoder::begin_shot(const Connectivity& connectivity) {
+  const FloatState state;
   if (Status s = impl_->close_group(); !s.ok()) return s;
   if (Status s = impl_->drain(0); !s.ok()) return s;
   impl_->surface = nullptr;
@@ -159,6 +163,7 @@ Status StreamEncoder::begin_shot(const Connectivity& connectivity) {
 }
 
 Status StreamEncoder::add_frame(std::span<const float> xyz) {
+  const FloatState state;
   Impl& s = *impl_;
   if (s.shots == 0 || xyz.size() != size_t{s.first.connectivity.vertex_count} * 3)
     return Status::invalid("a frame's vertices are not those of the shot");
@@ -182,6 +187,7 @@ Status StreamEncoder::add_frame(std::span<const float> xyz) {
 }
 
 Status StreamEncoder::finish() {
+  const FloatState state;
   if (Status s = impl_->close_group(); !s.ok()) return s;
   if (Status s = impl_->drain(0); !s.ok()) return s;
   if (Status s = impl_->writer.finish(); !s.ok()) return s;
