@@ -9,14 +9,12 @@
 #endif
 
 #include "codec/common/base/batches.h"
+#include "codec/common/prediction/coarsening.h"
 
 namespace reeb {
 
 namespace {
 
-constexpr uint32_t kBaseSize = 64;      ///< stop at this many vertices
-constexpr uint32_t kMaxValence = 9;     ///< of a removed vertex
-constexpr uint32_t kMinProgress = 200;  ///< stop when a level removes fewer than one in this many
 constexpr uint32_t kBaseNeighbours = 4;
 constexpr uint32_t kMaxAround = 12;  ///< neighbours of a row: more gain little and take time
 
@@ -78,7 +76,7 @@ class Contraction {
     while (alive_.size() > kBaseSize) {
       const size_t before = alive_.size();
       run_level();
-      if (before - alive_.size() < std::max<size_t>(1, alive_.size() / kMinProgress)) break;
+      if (!worth_another_level(before - alive_.size(), alive_.size())) break;
     }
     return collect(isolated);
   }

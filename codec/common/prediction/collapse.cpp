@@ -3,317 +3,221 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "codec/common/base/sort_few.h"
-#include "codec/common/prediction/neighbour_lists.h"
+#include "codec/common/prediction/coarsening.h"
+#include "codec/common/prediction/collapsing_mesh.h"
 
 namespace reeb {
 
 namespace {
 
-constexpr uint32_t kBaseSize = 64;   ///< stop at this many vertices
-constexpr uint32_t kMaxValence = 9;  ///< of a removed vertex
 constexpr uint32_t kMaxMerged = 12;  ///< valence that a collapse may give to its target
-/// A vertex of more triangles is left out, triangles and all: with every valence bounded, so is the
-/// time.
-constexpr uint32_t kMaxFaces = 256;
-constexpr uint32_t kMinProgress =
-    200;  ///< stop when a level removes fewer than one vertex in this many
-
-constexpr size_t kMaxFrom = 16;  ///< vertices whose neighbours are looked for together
-constexpr uint32_t kNoFace = UINT32_MAX;
+/// Common neighbours of the ends of an edge, which are left out of the count.
+constexpr uint32_t kCommon = 4;
+constexpr size_t kMaxNear = 16;
 
 using Indices = std::vector<uint32_t>;
 
-class Collapser {
+/// The neighbours of a vertex, nearest first; what stands for none behind them.
+struct Near {
+  std::array<uint32_t, kMaxNear> vertex;
+  size_t count = 0;
+
+  std::span<const uint32_t> list() const { return std::span(vertex).first(count); }
+  std::span<const uint32_t> by_eights() const {
+    return std::span(vertex).first(reeb::by_eights(count));
+  }
+};
+
+/// Sorts vertices by their distance from v, equal ones by index. There is room by eights.
+void sort_by_distance(const GridPoints& points, uint32_t v, uint32_t* vertices, size_t count) {
+  if (count <= kFew) {
+    std::array<int32_t, kFew> keys;
+    uint64_t bits = 0;
+    for (size_t i = 0; i < by_eights(count); ++i) {
+      const uint64_t distance2 = points.distance2(v, i < count ? vertices[i] : v);
+      keys[i] = i < count ? static_cast<int32_t>(distance2) : kNoKey;
+      bits |= distance2;
+    }
+    if (bits < kNoKey && sort_few(keys.data(), vertices, count)) return;
+  }
+  std::sort(vertices, vertices + count, [&](uint32_t a, uint32_t b) {
+    return std::pair(points.distance2(v, a), a) < std::pair(points.distance2(v, b), b);
+  });
+}
+
+/// Vertices by their mean edge, equal ones in the order they come in. By radix.
+class EdgeOrder {
  public:
-  Collapser(const GridPoints& points, std::span<const uint32_t> triangles, uint32_t max_extra)
-      : points_(points),
-        max_extra_(max_extra),
-        none_(points.size()),
-        neighbours_({}, none_),
-        faces_({}, kNoFace),
-        edges_(points.size(), 0),
-        seen_(points.size() + 1, 0),
-        locked_(points.size() + 1, 0) {
-    Indices face_count(points.size(), 0);
-    for (const uint32_t v : triangles) ++face_count[v];
-    const auto crowded = [&](uint32_t v) { return face_count[v] > kMaxFaces; };
-    triangles_.reserve(triangles.size() / 3);
-    for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
-      const Triangle t = {triangles[i], triangles[i + 1], triangles[i + 2]};
-      if (std::none_of(t.begin(), t.end(), crowded)) triangles_.push_back(t);
-    }
-    make_lists();
-  }
-
-  CollapseSequence run() {
-    CollapseSequence out;
-    for (uint32_t v = 0; v < points_.size(); ++v)
-      (neighbours_[v].empty() ? out.isolated : alive_).push_back(v);
-    out.collapses.reserve(alive_.size());
-    while (alive_.size() > kBaseSize) {
-      const size_t removed = run_level(out.collapses);
-      if (removed < std::max<size_t>(1, alive_.size() / kMinProgress)) break;
-    }
-    out.base = std::move(alive_);
-    return out;
-  }
-
- private:
-  using Triangle = std::array<uint32_t, 3>;
-
-  /// Returns a function that tells of a vertex whether it is seen for the first time under this
-  /// stamp.
-  auto marker(uint32_t stamp) {
-    return [this, stamp](uint32_t v) { return std::exchange(seen_[v], stamp) != stamp; };
-  }
-
-  /// `vertices` may be filled up with none_, which is not marked.
-  void mark(std::span<const uint32_t> vertices) {
-    ++stamp_;
-    for (const uint32_t v : vertices) seen_[v] = stamp_;
-    seen_[none_] = 0;
-  }
-  bool marked(uint32_t v) const { return seen_[v] == stamp_; }
-
-  void make_lists() {
-    Indices room(points_.size(), 0);  // three more triangles than there are at first
-    for (const Triangle& t : triangles_) {
-      for (const uint32_t v : t) ++room[v];
-    }
-    for (uint32_t& r : room) r += kMaxMerged / 2;
-    faces_ = NeighbourLists(room, kNoFace);
-    for (uint32_t& r : room) r = 2 * (r - kMaxMerged / 2);
-    neighbours_ = NeighbourLists(room, none_);
-    for (uint32_t f = 0; f < triangles_.size(); ++f) {
-      const Triangle& t = triangles_[f];
-      for (uint32_t i = 0; i < 3; ++i) {
-        faces_.push_back(t[i], f);
-        neighbours_.push_back(t[i], t[(i + 1) % 3]);
-        neighbours_.push_back(t[i], t[(i + 2) % 3]);
-      }
-    }
-    size_t longest = kMaxMerged + 4;
-    for (uint32_t v = 0; v < points_.size(); ++v) {
-      neighbours_.filter(v, marker(++stamp_));
-      longest = std::max(longest, neighbours_.by_eights(v).size());
-      for (const uint32_t u : neighbours_[v]) edges_[v] += points_.distance_q4(v, u);
-    }
-    far_.resize(by_eights(kMaxFrom * longest + 1));
-  }
-
-  /// Vertices in the order in which this level tries them: short mean edges first. By radix; those
-  /// alive are in order of their indices.
-  const std::vector<uint64_t>& candidates() {
-    constexpr uint32_t kDigitBits = 11;  // two digits are enough for the longest edge
-    constexpr uint32_t kDigits = 1u << kDigitBits;
-    std::array<uint32_t, kDigits> low_begin{}, high_begin{};
+  /// `vertices` rise.
+  const std::vector<uint64_t>& sort(const Indices& vertices, const CollapsingMesh& mesh) {
+    Counts low{}, high{};
     keys_.clear();
-    for (const uint32_t v : alive_) {
-      const uint64_t mean = edges_[v] / std::max<size_t>(1, neighbours_[v].size());
+    for (const uint32_t v : vertices) {
+      const uint64_t mean = mesh.mean_edge(v);
       keys_.push_back(mean << 32 | v);
-      ++low_begin[mean % kDigits];
-      ++high_begin[mean >> kDigitBits];
+      ++low[mean % kDigits];
+      ++high[mean >> kDigitBits];
     }
-    sort_by_digit(32, low_begin);
-    sort_by_digit(32 + kDigitBits, high_begin);
+    sort_by_digit(32, low);
+    sort_by_digit(32 + kDigitBits, high);
     return keys_;
   }
 
-  /// Sorts the keys, stably, by the digit from bit `shift` on, of which `begin` has the counts.
-  template <size_t kDigits>
-  void sort_by_digit(uint32_t shift, std::array<uint32_t, kDigits>& begin) {
+ private:
+  static constexpr uint32_t kDigitBits = 11;  // two digits are enough for the longest edge
+  static constexpr uint32_t kDigits = 1u << kDigitBits;
+  using Counts = std::array<uint32_t, kDigits>;
+
+  /// Stably, by the digit from bit `shift` on.
+  void sort_by_digit(uint32_t shift, Counts& begin) {
     std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
     sorted_.resize(keys_.size());
     for (const uint64_t key : keys_) sorted_[begin[(key >> shift) % kDigits]++] = key;
     keys_.swap(sorted_);
   }
 
+  std::vector<uint64_t> keys_, sorted_;
+};
+
+/// Half-edge collapses, level after level: in each, vertices with short edges first, none next to
+/// one that was removed, and none whose removal would change the topology.
+class Collapser {
+ public:
+  Collapser(const GridPoints& points, std::span<const uint32_t> triangles, uint32_t max_extra)
+      : points_(points),
+        max_extra_(max_extra),
+        mesh_(points, triangles, kMaxMerged / 2),
+        seen_(points.size() + 1),
+        locked_(points.size() + 1, 0) {
+    size_t longest = kMaxMerged + kCommon;
+    for (uint32_t v = 0; v < points.size(); ++v)
+      longest = std::max(longest, mesh_.neighbours_by_eights(v).size());
+    far_.resize(by_eights(kMaxNear * longest + 1));
+  }
+
+  CollapseSequence run() {
+    CollapseSequence out;
+    for (uint32_t v = 0; v < points_.size(); ++v)
+      (mesh_.valence(v) == 0 ? out.isolated : alive_).push_back(v);
+    out.collapses.reserve(alive_.size());
+    while (alive_.size() > kBaseSize) {
+      const size_t removed = run_level(out.collapses);
+      if (!worth_another_level(removed, alive_.size())) break;
+    }
+    out.base = std::move(alive_);
+    return out;
+  }
+
+ private:
   size_t run_level(std::vector<Collapse>& out) {
     ++level_;
     const size_t before = out.size();
-    for (const uint64_t key : candidates()) {
-      const auto v = static_cast<uint32_t>(key);
-      const size_t valence = neighbours_[v].size();
-      if (locked_[v] == level_ || valence == 0 || valence > kMaxValence) continue;
-      take_near(v);
-      const int64_t target = choose_target(v);
-      if (target < 0) continue;
-      Collapse& made = out.emplace_back();
-      made.vertex = v;
-      note_ring(made.ring);
-      find_far_neighbours(v, made.extra);
-      collapse(v, static_cast<uint32_t>(target));
-    }
-    const size_t removed = out.size() - before;
-    for (size_t i = before; i < out.size(); ++i)
-      locked_[out[i].vertex] = UINT32_MAX;  // gone for good
+    for (const uint64_t key : order_.sort(alive_, mesh_))
+      try_vertex(static_cast<uint32_t>(key), out);
+    for (size_t i = before; i < out.size(); ++i) locked_[out[i].vertex] = kGone;
     size_t kept = 0;
     for (const uint32_t v : alive_) {
       alive_[kept] = v;
-      kept += locked_[v] == UINT32_MAX ? 0 : 1;
+      kept += locked_[v] == kGone ? 0 : 1;
     }
     alive_.resize(kept);
-    return removed;
+    return out.size() - before;
   }
 
-  /// Leaves the neighbours of v in near_, nearest first, and none_ behind them.
+  void try_vertex(uint32_t v, std::vector<Collapse>& out) {
+    const uint32_t valence = mesh_.valence(v);
+    if (locked_[v] == level_ || valence == 0 || valence > kMaxValence) return;
+    take_near(v);
+    const uint32_t target = choose_target(v);
+    if (target == mesh_.none()) return;
+    Collapse& made = out.emplace_back();
+    made.vertex = v;
+    note_ring(made.ring);
+    note_extra(v, made.extra);
+    mesh_.merge(v, near_.list(), target);
+  }
+
   void take_near(uint32_t v) {
-    near_count_ = neighbours_[v].size();
-    const std::span<const uint32_t> list = neighbours_.by_eights(v);
-    near_.fill(none_);
-    std::copy(list.begin(), list.end(), near_.begin());
-    sort_by_distance(v, near_.data(), near_count_);
-  }
-  std::span<const uint32_t> near() const { return std::span(near_).first(near_count_); }
-  std::span<const uint32_t> near_by_eights() const {
-    return std::span(near_).first(by_eights(near_count_));
+    const std::span<const uint32_t> list = mesh_.neighbours_by_eights(v);
+    near_.count = mesh_.valence(v);
+    near_.vertex.fill(mesh_.none());
+    std::copy(list.begin(), list.end(), near_.vertex.begin());
+    sort_by_distance(points_, v, near_.vertex.data(), near_.count);
   }
 
-  /// Locks the vertices in near_, by index the ring.
+  /// The nearest neighbour that v can be merged into without changing the topology: the ends of the
+  /// edge have those neighbours in common that their triangles have. None where there is none.
+  /// Leaves the neighbours of v marked.
+  uint32_t choose_target(uint32_t v) {
+    seen_.clear();
+    for (const uint32_t u : near_.by_eights()) seen_.mark(u);
+    seen_.unmark(mesh_.none());
+    const uint32_t faces = mesh_.face_count(v);
+    const uint32_t wanted = faces == 0 ? 0 : faces == near_.count ? 2 : 1;
+    for (const uint32_t u : near_.list()) {
+      if (mesh_.valence(u) + near_.count > kMaxMerged + kCommon) continue;
+      if (near_.count <= 2) return u;  // a dangling end, nothing to protect
+      uint32_t common = 0;
+      for (const uint32_t w : mesh_.neighbours_by_eights(u)) common += seen_.has(w) ? 1 : 0;
+      if (common == wanted && mesh_.shared_faces(v, u) == wanted) return u;
+    }
+    return mesh_.none();
+  }
+
+  /// The neighbours by index, which are locked.
   void note_ring(FixedList<uint32_t, 16>& ring) {
-    std::array<int32_t, 16> keys;
-    for (size_t i = 0; i < near_by_eights().size(); ++i) {
-      keys[i] = i < near_count_ ? static_cast<int32_t>(near_[i]) : kNoKey;
-      locked_[near_[i]] = level_;
+    std::array<int32_t, kMaxNear> keys;
+    for (size_t i = 0; i < near_.by_eights().size(); ++i) {
+      keys[i] = i < near_.count ? static_cast<int32_t>(near_.vertex[i]) : kNoKey;
+      locked_[near_.vertex[i]] = level_;
     }
-    std::copy(near_.begin(), near_.end(), ring.begin());
-    sort_few(keys.data(), ring.begin(), near_count_);
-    ring.resize(near_count_);
+    std::copy(near_.vertex.begin(), near_.vertex.end(), ring.begin());
+    sort_few(keys.data(), ring.begin(), near_.count);
+    ring.resize(near_.count);
   }
 
-  /// There is room for `vertices` by eights.
-  void sort_by_distance(uint32_t v, uint32_t* vertices, size_t count) const {
-    if (count <= kFew) {
-      std::array<int32_t, kFew> keys;
-      uint64_t bits = 0;
-      for (size_t i = 0; i < by_eights(count); ++i) {
-        const uint64_t distance2 = points_.distance2(v, i < count ? vertices[i] : v);
-        keys[i] = i < count ? static_cast<int32_t>(distance2) : kNoKey;
-        bits |= distance2;
-      }
-      if (bits < kNoKey && sort_few(keys.data(), vertices, count)) return;
-    }
-    std::sort(vertices, vertices + count, [&](uint32_t a, uint32_t b) {
-      return std::pair(points_.distance2(v, a), a) < std::pair(points_.distance2(v, b), b);
-    });
-  }
-
-  /// Nearest neighbour that v can be merged into without changing the topology; -1 if there is
-  /// none. Pre-condition: near_ holds the neighbours of v, nearest first.
-  int64_t choose_target(uint32_t v) {
-    mark(near_by_eights());
-    const std::span<const uint32_t> faces = faces_[v];
-    const ptrdiff_t wanted = faces.empty() ? 0 : faces.size() == near_count_ ? 2 : 1;
-    for (const uint32_t u : near()) {
-      if (neighbours_[u].size() + near_count_ > kMaxMerged + 4) continue;
-      if (near_count_ <= 2) return u;  // a dangling end, nothing to protect
-      const std::span<const uint32_t> others = neighbours_.by_eights(u);
-      const auto common =
-          std::count_if(others.begin(), others.end(), [&](uint32_t w) { return marked(w); });
-      const auto shared = std::count_if(faces.begin(), faces.end(),
-                                        [&](uint32_t f) { return has(triangles_[f], u); });
-      if (common == wanted && shared == wanted) return u;
-    }
-    return -1;
-  }
-
-  // What follows goes without branches on what the mesh looks like: they are hard to foresee.
-  static uint32_t same(uint32_t a, uint32_t b) { return a == b ? 1 : 0; }
-  static bool has(const Triangle& t, uint32_t v) {
-    return (same(t[0], v) | same(t[1], v) | same(t[2], v)) != 0;
-  }
-
-  /// Leaves in far_ the neighbours of `from`, at most kMaxFrom, that are not marked, and marks
-  /// them.
-  void find_next_ring(std::span<const uint32_t> from) {
-    const auto is_new = marker(stamp_);
-    size_t size = 0;
-    for (const uint32_t w : from) {
-      for (const uint32_t u : neighbours_.by_eights(w)) {
-        far_[size] = u;
-        size += is_new(u) ? 1 : 0;
-      }
-    }
-    far_count_ = size;
-  }
-
-  /// The nearest of the second ring, then of the third. Pre-condition: near_ and its marks as
-  /// choose_target leaves them.
-  void find_far_neighbours(uint32_t v, FixedList<uint32_t, 16>& extra) {
-    seen_[v] = seen_[none_] = stamp_;
-    find_next_ring(near());
-    add_nearest_far(v, extra);
+  /// The nearest of the second ring, then of the third. Pre-condition: marks as choose_target
+  /// leaves them.
+  void note_extra(uint32_t v, FixedList<uint32_t, 16>& extra) {
+    seen_.mark(v);
+    seen_.mark(mesh_.none());
+    add_nearest(v, near_.list(), extra);
     if (extra.size() == max_extra_) return;
     const FixedList<uint32_t, 16> second = extra;
-    find_next_ring(std::span(second.begin(), second.size()));
-    add_nearest_far(v, extra);
+    add_nearest(v, std::span(second.begin(), second.size()), extra);
   }
-  void add_nearest_far(uint32_t v, FixedList<uint32_t, 16>& extra) {
-    sort_by_distance(v, far_.data(), far_count_);
-    const size_t count = std::min(far_count_, max_extra_ - extra.size());
+
+  /// Of the neighbours of `from`, at most kMaxNear, that are not marked; marks them.
+  void add_nearest(uint32_t v, std::span<const uint32_t> from, FixedList<uint32_t, 16>& extra) {
+    size_t size = 0;
+    for (const uint32_t w : from) {
+      for (const uint32_t u : mesh_.neighbours_by_eights(w)) {
+        far_[size] = u;
+        size += seen_.add(u) ? 1 : 0;
+      }
+    }
+    sort_by_distance(points_, v, far_.data(), size);
+    const size_t count = std::min(size, max_extra_ - extra.size());
     std::copy_n(far_.begin(), count, extra.end());
     extra.resize(extra.size() + count);
   }
 
-  /// Pre-condition: near_ holds the neighbours of v.
-  void collapse(uint32_t v, uint32_t target) {
-    move_faces(v, target);
-    mark(neighbours_.by_eights(target));
-    for (const uint32_t w : near()) {
-      const bool erases = (same(w, target) | same(seen_[w], stamp_)) != 0;
-      neighbours_.replace_or_erase(w, v, target, erases);
-      neighbours_.push_back_if(!erases, target, w);
-      const uint32_t added = erases ? 0 : points_.distance_q4(w, target);
-      edges_[w] += added - points_.distance_q4(w, v);
-      edges_[target] += added;
-    }
-  }
-
-  /// The target takes the place of v in its triangles; those that it has are gone.
-  void move_faces(uint32_t v, uint32_t target) {
-    const std::span<const uint32_t> faces = faces_[v];
-    around_.resize(std::max(around_.size(), 2 * faces.size()));
-    uint32_t* const moved = around_.data();
-    uint32_t* const gone = moved + faces.size();
-    size_t moved_count = 0, gone_count = 0;
-    for (const uint32_t f : faces) {
-      Triangle& t = triangles_[f];
-      const uint32_t keeps = has(t, target) ? 0 : 1;
-      for (uint32_t& corner : t) {
-        const uint32_t moves = keeps & same(corner, v);
-        corner ^= (corner ^ target) & (0u - moves);
-      }
-      moved[moved_count] = gone[gone_count] = f;
-      moved_count += keeps;
-      gone_count += 1 - keeps;
-    }
-    for (size_t i = 0; i < moved_count; ++i) faces_.push_back(target, moved[i]);
-    for (size_t i = 0; i < gone_count; ++i) {
-      for (const uint32_t w : triangles_[gone[i]]) faces_.erase(w, gone[i]);
-    }
-  }
+  static constexpr uint32_t kGone = UINT32_MAX;
 
   const GridPoints& points_;
   uint32_t max_extra_;
-  uint32_t none_;  ///< beyond all vertices
-  NeighbourLists neighbours_;
-  NeighbourLists faces_;
-  std::vector<Triangle> triangles_;
-  Indices edges_;  ///< of every vertex, the lengths of its edges in all: below 2^30
+  CollapsingMesh mesh_;
+  EdgeOrder order_;
   Indices alive_;
-  Indices seen_;  ///< stamp_ for what is marked
-  uint32_t stamp_ = 0;
-  Indices locked_;  ///< level at which the vertex must stay
+  MarkedVertices seen_;
+  Indices locked_;  ///< level at which the vertex must stay; kGone for good
   uint32_t level_ = 0;
-  std::array<uint32_t, 16> near_;  ///< neighbours of the vertex at hand, nearest first
-  size_t near_count_ = 0;
-  Indices far_;  ///< others near it, the first far_count_
-  size_t far_count_ = 0;
-  Indices around_;  ///< its triangles
-  std::vector<uint64_t> keys_, sorted_;
+  Near near_;    ///< of the vertex at hand
+  Indices far_;  ///< others near it
 };
 
 }  // namespace
