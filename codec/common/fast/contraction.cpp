@@ -195,13 +195,13 @@ class Contraction {
     out_.order = alive_;
     out_.order.insert(out_.order.end(), removed_.rbegin(), removed_.rend());
     out_.order.insert(out_.order.end(), isolated.begin(), isolated.end());
-    std::vector<uint32_t> rank(none_);
-    for (uint32_t r = 0; r < none_; ++r) rank[out_.order[r]] = r;
+    std::vector<uint32_t> row_of(none_);
+    for (uint32_t r = 0; r < none_; ++r) row_of[out_.order[r]] = r;
     out_.graph.step_level.resize(none_, 0);
     for (uint32_t r = 0; r < none_; ++r) {
       PredictionGraph::Row& row = out_.graph.rows[r];
       if (r - alive_.size() < removed_.size()) {
-        for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = rank[row.neighbour[i]];
+        for (uint32_t i = 0; i < row.count; ++i) row.neighbour[i] = row_of[row.neighbour[i]];
       } else {
         follow(r, row);
       }

@@ -79,8 +79,8 @@ uint32_t EarlierNeighbours::build(uint32_t begin, uint32_t end, uint32_t parent)
   return id;
 }
 
-void EarlierNeighbours::admit(uint32_t rank) {
-  for (; admitted_ < rank; ++admitted_) {
+void EarlierNeighbours::admit(uint32_t row) {
+  for (; admitted_ < row; ++admitted_) {
     const uint32_t v = order_[admitted_];
     for (uint32_t box = leaf_of_[v]; boxes_[box].lowest > v; box = boxes_[box].parent) {
       boxes_[box].lowest = v;
@@ -99,7 +99,7 @@ void EarlierNeighbours::visit(uint32_t id, Query& query) {
   const Box& box = boxes_[id];
   if (box.children[0] == 0) {
     for (uint32_t i = box.begin; i < box.end; ++i) {
-      if (rank_[items_[i]] < rank_[query.vertex]) try_vertex(items_[i], query);
+      if (row_of_[items_[i]] < row_of_[query.vertex]) try_vertex(items_[i], query);
     }
     return;
   }
@@ -118,11 +118,11 @@ void EarlierNeighbours::visit(uint32_t id, Query& query) {
 std::vector<uint32_t> EarlierNeighbours::find(uint32_t v, uint32_t k) {
   Query query{v, k, {}};
   const bool spares_tree = boxes_.empty() && work_ <= kWorthATree * points_.size();
-  if (rank_[v] <= kFew || spares_tree) {
-    for (uint32_t r = 0; r < rank_[v]; ++r) try_vertex(order_[r], query);
+  if (row_of_[v] <= kFew || spares_tree) {
+    for (uint32_t r = 0; r < row_of_[v]; ++r) try_vertex(order_[r], query);
   } else {
     if (boxes_.empty()) build();
-    admit(rank_[v]);
+    admit(row_of_[v]);
     visit(0, query);
   }
   std::vector<uint32_t> out;

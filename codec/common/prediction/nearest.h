@@ -14,14 +14,14 @@ namespace reeb {
 /// at one place, make a query look at more than it must.
 class EarlierNeighbours {
  public:
-  /// `order`: the vertices in coding order; `rank[v]`: place of vertex v there. All must outlive
+  /// `order`: the vertices in coding order; `row_of[v]`: place of vertex v there. All must outlive
   /// the object.
   EarlierNeighbours(const GridPoints& points, const std::vector<uint32_t>& order,
-                    const std::vector<uint32_t>& rank)
-      : points_(points), order_(order), rank_(rank) {}
+                    const std::vector<uint32_t>& row_of)
+      : points_(points), order_(order), row_of_(row_of) {}
 
-  /// Up to `k` vertices of lower rank nearest to v, nearest first, ties by index. Pre-condition: no
-  /// vertex of higher rank was asked for before.
+  /// Up to `k` vertices of rows before v's nearest to it, nearest first, ties by index.
+  /// Pre-condition: no vertex of a later row was asked for before.
   std::vector<uint32_t> find(uint32_t v, uint32_t k);
 
   /// Vertices and boxes that were looked at.
@@ -41,18 +41,18 @@ class EarlierNeighbours {
   void build();
   uint32_t build(uint32_t begin, uint32_t end, uint32_t parent);
   Box bound(uint32_t begin, uint32_t end) const;
-  /// Lets the vertices before this rank be found.
-  void admit(uint32_t rank);
+  /// Lets the vertices before this row be found.
+  void admit(uint32_t row);
   void try_vertex(uint32_t u, Query& query);
   void visit(uint32_t box, Query& query);
 
   const GridPoints& points_;
   const std::vector<uint32_t>& order_;
-  const std::vector<uint32_t>& rank_;
+  const std::vector<uint32_t>& row_of_;
   std::vector<uint32_t> items_;
   std::vector<Box> boxes_;         ///< empty before the tree is needed
   std::vector<uint32_t> leaf_of_;  ///< of every vertex
-  uint32_t admitted_ = 0;          ///< rank of the first vertex that the tree does not find yet
+  uint32_t admitted_ = 0;          ///< row of the first vertex that the tree does not find yet
   uint64_t work_ = 0;
 };
 

@@ -68,13 +68,13 @@ class SurfaceGraphBuilder {
     const auto& collapses = sequence_.collapses;
     for (size_t i = collapses.size(); i-- > 0;) order_.push_back(collapses[i].vertex);
     append_by_strides(points, sequence_.isolated, order_);
-    rank_.resize(points.size());
-    for (uint32_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = r;
+    row_of_.resize(points.size());
+    for (uint32_t r = 0; r < order_.size(); ++r) row_of_[order_[r]] = r;
     mark_boundary(triangles);
   }
 
   SurfaceGraph build() {
-    EarlierNeighbours nearest(points_, order_, rank_);
+    EarlierNeighbours nearest(points_, order_, row_of_);
     SurfaceGraph out;
     out.graph.rows.resize(points_.size());
     for (uint32_t r = 0; r < order_.size(); ++r) {
@@ -109,8 +109,8 @@ class SurfaceGraphBuilder {
   }
 
   /// What the collapses tell.
-  Gathered gather(uint32_t rank) const {
-    const size_t place = rank - sequence_.base.size();  // wraps around for the base
+  Gathered gather(uint32_t r) const {
+    const size_t place = r - sequence_.base.size();  // wraps around for the base
     const size_t count = sequence_.collapses.size();
     if (place >= count) return {};
     const Collapse& c = sequence_.collapses[count - 1 - place];
@@ -134,33 +134,33 @@ class SurfaceGraphBuilder {
     }
   }
 
-  void fill_row(uint32_t rank, const Gathered& g, PredictionGraph::Row& row) const {
-    row.neighbour.fill(rank);
+  void fill_row(uint32_t r, const Gathered& g, PredictionGraph::Row& row) const {
+    row.neighbour.fill(r);
     row.ring = static_cast<uint8_t>(std::min<size_t>(g.ring.size(), kMaxNeighbours));
     const size_t wanted = uses(coding_tool::kExtraNeighbours) ? g.size() : g.ring.size();
     row.count = static_cast<uint8_t>(std::min<size_t>(wanted, kMaxNeighbours));
     for (uint32_t i = 0; i < row.count; ++i)
-      row.neighbour[i] = rank_[i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()]];
+      row.neighbour[i] = row_of_[i < g.ring.size() ? g.ring[i] : g.extra[i - g.ring.size()]];
   }
 
   const GridPoints& points_;
   CollapseSequence sequence_;
   std::vector<bool> boundary_;
   std::vector<uint32_t> order_;
-  std::vector<uint32_t> rank_;
+  std::vector<uint32_t> row_of_;
 };
 
 /// The nearer a neighbour of the ring, the more it is expected to count, as 1 / distance; the
 /// farther a neighbour, the surer it counts for little: precision grows with the distance in the
 /// ring and with its square beyond, the mean distance of the ring being 1.
-void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uint32_t rank,
+void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uint32_t r,
                PredictionGraph::Row& row) {
   uint32_t distance[kMaxNeighbours] = {};  // in 1/16 grid units, at least a quarter of the grid
   uint32_t inverse[kMaxNeighbours] = {};
   uint32_t sum = 0;
   uint64_t inverse_sum = 0;
   for (uint32_t i = 0; i < row.count; ++i) {
-    distance[i] = std::max(4u, points.distance_q4(order[rank], order[row.neighbour[i]]));
+    distance[i] = std::max(4u, points.distance_q4(order[r], order[row.neighbour[i]]));
     if (i >= row.ring) continue;
     sum += distance[i];
     inverse_sum += inverse[i] = (1u << 22) / distance[i];

@@ -62,7 +62,7 @@ std::vector<float> interpolation_prior(const Instant& at) {
 
 class TemporalGraphBuilder {
  public:
-  explicit TemporalGraphBuilder(uint32_t frames) : rank_(size_t{frames} * 3) {}
+  explicit TemporalGraphBuilder(uint32_t frames) : row_of_(size_t{frames} * 3) {}
 
   TemporalGraph build(const std::vector<Instant>& instants) {
     for (const Instant& at : instants) {
@@ -74,11 +74,11 @@ class TemporalGraphBuilder {
 
  private:
   void add_row(const Instant& at, uint32_t axis) {
-    const auto rank = static_cast<uint32_t>(out_.order.size());
-    rank_[at.time * 3 + axis] = rank;
+    const auto r = static_cast<uint32_t>(out_.order.size());
+    row_of_[at.time * 3 + axis] = r;
     out_.order.push_back(at.time * 3 + axis);
     Row row;
-    row.neighbour.fill(rank);
+    row.neighbour.fill(r);
     row.prior.fill(0.0f);
     row.precision.fill(1.0f);
     const std::vector<float> prior = interpolation_prior(at);
@@ -94,10 +94,10 @@ class TemporalGraphBuilder {
   }
 
   void append(Row& row, uint32_t time, uint32_t axis) {
-    row.neighbour[row.count++] = rank_[time * 3 + axis];
+    row.neighbour[row.count++] = row_of_[time * 3 + axis];
   }
 
-  std::vector<uint32_t> rank_;
+  std::vector<uint32_t> row_of_;
   TemporalGraph out_;
 };
 
