@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "codec/common/prediction/prediction_graph.h"
+
 using namespace reeb;
 
 namespace {
