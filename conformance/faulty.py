@@ -324,6 +324,9 @@ def add_headers(m):
             ("head_flags", "A reserved bit of HEAD.", dict(flags=b"\x80")),
             ("negative_rate", "A negative frame rate.", dict(rates=f64(-24.0) + f64(0.0))),
             ("rate_not_a_number", "A frame rate that is no number.", dict(rates=f64(math.nan) + f64(0.0))),
+            ("rate_too_high", "A frame rate above 10^9.", dict(rates=f64(1.0625e9) + f64(0.0))),
+            ("start_too_late", "A start_time above 10^15.", dict(rates=f64(24.0) + f64(1.0625e15))),
+            ("start_too_early", "A start_time below -10^15.", dict(rates=f64(24.0) + f64(-1.0625e15))),
             ("padded_real", "A real with a 0 at its end.", dict(rates=b"\3\x40\x38\x00" + f64(0.0))),
             ("head_too_long", "A byte behind the last field of HEAD.", dict(flags=b"\0\0"))):
         m.add(name, "corrupt", sentence, file.edited(b"HEAD", **changes))

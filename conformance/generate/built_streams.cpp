@@ -18,6 +18,10 @@ class Maker {
   void add(const char* name, const char* sentence, Bytes bytes) {
     streams.push_back({"uncommon", name, sentence, std::move(bytes)});
   }
+  /// One that tells what no other core stream does.
+  void pin(const char* name, const char* sentence, Bytes bytes) {
+    streams.push_back({"core", name, sentence, std::move(bytes)});
+  }
   std::vector<Stream> streams;
 };
 
@@ -191,7 +195,7 @@ void add_motion(Maker& m) {
   still.header.region_count = 3;
   still.binding = [](uint32_t) { return RegionBinding{2, 0, 1}; };
   still.transform = [](uint32_t, uint32_t) { return MotionModel::Transform{}; };
-  m.add("motion_unused", "Regions without any motion.", build_file(mesh, still));
+  m.pin("motion_unused", "Regions without any motion.", build_file(mesh, still));
 }
 
 void add_corrections(Maker& m) {
@@ -232,9 +236,9 @@ void add_meshes(Maker& m) {
         build_file(build_listed_mesh(small.connectivity, on_grid(small, 8)), plain_group(2, 2)));
   const Shape ring = torus(12, 9);
   std::vector<int32_t> corner(size_t{ring.connectivity.vertex_count} * 3);
-  m.add("one_place", "All vertices at one grid point.",
+  m.pin("one_place", "All vertices at one grid point.",
         build_file(build_mesh(ring.connectivity, corner), plain_group(2, 2)));
-  m.add("plain_one_place", "The same in a plain mesh.",
+  m.pin("plain_one_place", "The same in a plain mesh.",
         build_fast(plain_group(2, 2), build_mesh(ring.connectivity, corner, {.plain = true})));
   std::vector<int32_t> jumps;
   for (size_t i = 0; i < corner.size(); ++i)

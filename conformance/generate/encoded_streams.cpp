@@ -95,6 +95,11 @@ void repeat(const float* rest, double time, double* xyz) {
   bend(rest, static_cast<double>(static_cast<int>(time * 8 + 0.01) % 4) / 4, xyz);
 }
 
+/// A few poses, each held for three frames.
+void hold(const float* rest, double time, double* xyz) {
+  bend(rest, std::floor(time * 11 / 3 + 0.01) / 4, xyz);
+}
+
 /// One half never moves.
 void wag(const float* rest, double time, double* xyz) { bend(rest, rest[0] > 0 ? time : 0, xyz); }
 
@@ -127,7 +132,7 @@ void burst(const float* rest, double time, double* xyz) {
 void powers(const float* rest, double time, double* xyz) {
   const auto i = static_cast<int>(std::lround(7 * rest[0] + 31 * rest[1] + 3 * time)) + 400;
   for (int a = 0; a < 3; ++a)
-    xyz[a] = (i * (a + 3) % 90 + 10) * std::pow(10.0, i * (2 * a + 1) % 40 - 6) * (i % 2 - 0.5) * 2;
+    xyz[a] = (i * (a + 3) % 90 + 10) * std::pow(10.0, i * (2 * a + 1) % 27 - 6) * (i % 2 - 0.5) * 2;
 }
 
 /// All vertices stay but those at the outer rim.
@@ -298,6 +303,7 @@ void add_lossless(Maker& m) {
         5, exact, leap);
   m.add("lossless_repeats", "Poses that come back: frames that are copies.", torus(8, 6), 16, exact,
         repeat);
+  m.add("lossless_holds", "Each pose for three frames.", torus(6, 5), 12, exact, hold);
   m.add("lossless_still", "Nothing moves.", torus(8, 6), 5, exact, rest);
   m.add("lossless_parts", "One half never moves.", torus(12, 8), 8, exact, wag);
   m.add("lossless_points", "No faces.", points_only(40), 4, exact);

@@ -191,6 +191,8 @@ void add_bounds(Maker& m) {
         build_file(build_mesh(ring.connectivity, far), plain_group(2, 2)));
   m.add("fast_far_places", "The same in the fast profile.",
         build_fast(plain_group(2, 2), build_mesh(ring.connectivity, far, {.plain = true})));
+  m.add("fast_full", "More vertices than a base has, none of which can be taken out.",
+        build_fast(plain_group(1, 2), plain_mesh_of(soup(80, 450, 5), 3)));
   m.add("many_points", "More loose vertices than are remembered.",
         build_file(mesh_of(points_only(400), 3), plain_group(1, 1)));
 }
@@ -257,9 +259,10 @@ void add_motion(Maker& m) {
   const BuiltMesh mesh = mesh_of(torus(6, 5));
   BuiltGroup many = plain_group(14, 40);
   many.coefficients = none;
-  many.header.region_count = 5;
+  many.header.region_count = 7;  // one with a single member, and one with none
   many.binding = [](uint32_t row) {
-    return RegionBinding{row / 7 % 5, row % 2 == 0 ? 0 : row % 5, row % 2 == 0 ? 0 : row % 8 + 1};
+    return RegionBinding{row == 0 ? 5 : row / 7 % 5, row % 2 == 0 ? 0 : row % 5,
+                         row % 2 == 0 ? 0 : row % 8 + 1};
   };
   many.transform = [](uint32_t k, uint32_t b) {
     if (k % 3 == 1) return MotionModel::Transform{};
