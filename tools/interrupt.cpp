@@ -11,6 +11,8 @@
 namespace reeb::tools {
 
 void remove_output_on_interrupt() {
+  // A file that grows beyond the limit is then a write that fails, like any other.
+  std::signal(SIGXFSZ, SIG_IGN);
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);

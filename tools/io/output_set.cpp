@@ -1,13 +1,16 @@
 #include "tools/io/output_set.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <mutex>
+#include <random>
 #include <string>
 
 namespace reeb::tools {
@@ -37,10 +40,52 @@ bool is_special(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-fs::path temporary_name(const fs::path& target) {
-  std::string name(1, '.');
-  name += target.filename().string() + ".reeb-" + std::to_string(::getpid()) + ".tmp";
-  return target.parent_path() / name;
+/// A name beside `real` that nothing has yet, that nobody can foresee, and short enough whatever
+/// the length of the target's.
+fs::path fresh_name(const fs::path& real) {
+  std::random_device random;
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), ".reeb-%08x%08x.tmp", random(), random());
+  return real.parent_path() / name.data();
+}
+
+/// Creates a file under a name that nothing has, which `name` becomes.
+int create(const fs::path& real, fs::path& name) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    name = fresh_name(real);
+    const int descriptor =
+        ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  return true;
+}
+
+bool links_unknown() {
+  return errno == EPERM || errno == ENOTSUP || errno == EOPNOTSUPP || errno == ENOSYS ||
+         errno == EMLINK;
+}
+
+/// Gives `from` the name `to`, unless something has it.
+bool move_to_free_name(const fs::path& from, const fs::path& to) {
+  if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0;
+  if (!links_unknown()) return false;
+  // A file system without hard links: no better than a look and a step.
+  std::error_code failed;
+  if (fs::exists(fs::symlink_status(to, failed))) {
+    errno = EEXIST;
+    return false;
+  }
+  return std::rename(from.c_str(), to.c_str()) == 0;
 }
 
 // Behind symbolic links, so that the link stays and its file changes.
@@ -80,8 +125,11 @@ Status OutputSet::prepare(const std::vector<fs::path>& targets) {
   }
   for (const fs::path& target : targets) {
     if (Status status = create_folder(target.parent_path()); !status.ok()) return status;
-    const fs::path real = resolved(target);
-    files_.push_back({target, is_special(real) ? real : temporary_name(real)});
+    File file;
+    file.target = target;
+    file.real = resolved(target);
+    if (is_special(file.real)) file.written = file.real;
+    files_.push_back(std::move(file));
   }
   // Sorted, so that `find` stays quick with thousands of frames.
   std::sort(files_.begin(), files_.end(),
@@ -91,9 +139,11 @@ Status OutputSet::prepare(const std::vector<fs::path>& targets) {
 
 Status OutputSet::create_folder(const fs::path& folder) {
   std::vector<fs::path> missing;
-  for (fs::path f = folder; !f.empty() && !fs::exists(f); f = f.parent_path()) missing.push_back(f);
+  std::error_code failed;
+  for (fs::path f = folder; !f.empty() && !fs::exists(f, failed); f = f.parent_path()) {
+    missing.push_back(f);
+  }
   for (auto f = missing.rbegin(); f != missing.rend(); ++f) {
-    std::error_code failed;
     if (fs::create_directory(*f, failed)) created_folders_.push_back(*f);
     if (failed) {
       return Status::io(f->string() + ": cannot be created (" + failed.message() + ")");
@@ -102,40 +152,108 @@ Status OutputSet::create_folder(const fs::path& folder) {
   return {};
 }
 
+// A number of an inode may be given again, but not with this user's name on it to someone else.
+bool OutputSet::is_written(const File& file, const struct stat& now) {
+  return S_ISREG(now.st_mode) && now.st_nlink == 1 && now.st_uid == ::geteuid() &&
+         file.device == now.st_dev && file.inode == now.st_ino;
+}
+
+Status OutputSet::replaced(const File& file) {
+  return Status::io(file.target.string() + ": someone has replaced " + file.written.string() +
+                    ", under which it is written; use a folder that is yours alone");
+}
+
 OutputSet::File* OutputSet::find(const fs::path& target) {
   const auto file = std::lower_bound(files_.begin(), files_.end(), target,
                                      [](const File& f, const fs::path& t) { return f.target < t; });
   return file != files_.end() && file->target == target ? &*file : nullptr;
 }
 
+// Creates the file, or opens it again: the very one that was created, not what has its name now.
+Status OutputSet::open(File& file, int& descriptor) const {
+  const bool special = file.written == file.real;
+  if (!special && !file.started) {
+    descriptor = create(file.real, file.written);
+  } else {
+    const int flags = special ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC;
+    descriptor = ::open(file.written.c_str(), flags);
+  }
+  struct stat now {};
+  if (descriptor < 0 || ::fstat(descriptor, &now) != 0) return write_failure(file.target);
+  if (special) return {};
+  if (!file.started) {
+    file.device = now.st_dev;
+    file.inode = now.st_ino;
+    file.started = true;
+  }
+  return is_written(file, now) ? Status() : replaced(file);
+}
+
 Status OutputSet::write(const fs::path& target, std::string_view bytes) {
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(nullptr, std::fclose);
+  int descriptor = -1;
+  Status status;
   {
     const std::lock_guard lock(registry().mutex);
     File* const file = find(target);
     if (file == nullptr) return Status::invalid(target.string() + ": was not prepared");
-    stream.reset(std::fopen(file->written.c_str(), file->started ? "ab" : "wb"));
-    if (!stream) return write_failure(target);
-    file->started = true;
+    status = open(*file, descriptor);
   }
-  const size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stream.get());
-  if (written != bytes.size() || std::fclose(stream.release()) != 0) return write_failure(target);
-  return {};
+  if (status.ok() && !write_all(descriptor, bytes)) status = write_failure(target);
+  if (descriptor >= 0 && ::close(descriptor) != 0 && status.ok()) status = write_failure(target);
+  return status;
+}
+
+Status OutputSet::place(File& file) const {
+  Status status = check_target(file.target, overwrite_);
+  if (!status.ok()) return status;
+  struct stat now {};
+  if (::lstat(file.written.c_str(), &now) != 0) return write_failure(file.target);
+  if (!is_written(file, now)) return replaced(file);
+  std::error_code failed;
+  if (!fs::exists(file.real, failed)) {
+    if (move_to_free_name(file.written, file.real)) return {};
+    status = errno == EEXIST ? check_target(file.target, false) : write_failure(file.target);
+    return status.ok() ? write_failure(file.target) : status;
+  }
+  const fs::path before = fresh_name(file.real);
+  const bool linked = ::link(file.real.c_str(), before.c_str()) == 0;
+  const bool kept =
+      linked || (links_unknown() && std::rename(file.real.c_str(), before.c_str()) == 0);
+  if (kept && std::rename(file.written.c_str(), file.real.c_str()) == 0) {
+    file.before = before;
+    return {};
+  }
+  status = write_failure(file.target);
+  if (linked) fs::remove(before, failed);
+  if (kept && !linked) fs::rename(before, file.real, failed);
+  return status;
+}
+
+void OutputSet::take_back(const File& file) {
+  std::error_code ignored;
+  if (file.before.empty()) {
+    fs::remove(file.real, ignored);
+  } else {
+    fs::rename(file.before, file.real, ignored);
+  }
 }
 
 Status OutputSet::commit() {
   const std::lock_guard lock(registry().mutex);
+  std::vector<File*> placed;
   for (File& file : files_) {
     if (!file.started) continue;
-    const fs::path real = resolved(file.target);
-    if (file.written != real) {
-      Status status = check_target(file.target, overwrite_);
-      if (status.ok() && std::rename(file.written.c_str(), real.c_str()) != 0) {
-        status = write_failure(file.target);
-      }
-      if (!status.ok()) return status;
+    const Status status = place(file);
+    if (!status.ok()) {
+      for (const File* p : placed) take_back(*p);
+      return status;
     }
     file.started = false;
+    placed.push_back(&file);
+  }
+  std::error_code ignored;
+  for (const File* p : placed) {
+    if (!p->before.empty()) fs::remove(p->before, ignored);
   }
   created_folders_.clear();
   return {};
@@ -144,7 +262,7 @@ Status OutputSet::commit() {
 void OutputSet::discard() {
   std::error_code ignored;
   for (File& file : files_) {
-    if (file.started && !is_special(file.written)) fs::remove(file.written, ignored);
+    if (file.started) fs::remove(file.written, ignored);
     file.started = false;
   }
   // Only empty folders go: what someone else has put there stays.

@@ -1,6 +1,8 @@
 // Files that appear together or not at all.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -9,12 +11,15 @@
 
 namespace reeb::tools {
 
-/// Writes files under temporary names beside their targets and renames them all in `commit`. What
-/// is not committed is removed with the set, together with the folders it created; `abandon_all`
-/// does the same for every living set, for use on the way out of an interrupted program. One set is
-/// used by one thread except for `write`, which any number of threads may call.
+/// Writes files under temporary names beside their targets and gives them their names in `commit`,
+/// all or, where one cannot get it, none: then what was there before is put back. What is not
+/// committed is removed with the set, together with the folders it created; `abandon_all` does the
+/// same for every living set, for use on the way out of an interrupted program. One set is used by
+/// one thread except for `write`, which any number of threads may call.
 ///
-/// A target that exists and is no regular file (/dev/null, a pipe) is written directly.
+/// Temporary names cannot be foreseen, and no links that someone puts in their place are followed.
+/// A target that exists and is no regular file (/dev/null, a pipe) is written directly; one that is
+/// a link stays one.
 class OutputSet {
  public:
   explicit OutputSet(bool overwrite) : overwrite_(overwrite) {}
@@ -38,11 +43,20 @@ class OutputSet {
  private:
   struct File {
     std::filesystem::path target;
-    std::filesystem::path written;  ///< the temporary name; the target where it is written directly
+    std::filesystem::path real;     ///< the target behind links
+    std::filesystem::path written;  ///< the temporary name; `real` where it is written directly
+    std::filesystem::path before;   ///< while committing: what `real` was, under another name
     bool started = false;
+    dev_t device = 0;  ///< of what was created as `written`
+    ino_t inode = 0;
   };
   Status create_folder(const std::filesystem::path& folder);
   File* find(const std::filesystem::path& target);
+  Status open(File& file, int& descriptor) const;
+  Status place(File& file) const;
+  static void take_back(const File& file);
+  static bool is_written(const File& file, const struct stat& now);
+  static Status replaced(const File& file);
   void discard();
 
   bool overwrite_;

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -90,6 +92,95 @@ TEST_CASE("special files and links stay what they are") {
   CHECK(std::filesystem::is_character_file("/dev/null"));
   CHECK(std::filesystem::is_symlink(folder / "link"));
   CHECK(read_text(folder / "real") == "new");
+}
+
+TEST_CASE("a set whose last file cannot get its name changes nothing") {
+  for (const bool there_before : {false, true}) {
+    const TempFolder folder;
+    if (there_before) folder.write("a", "old");
+    const Names before = folder.names();
+    {
+      OutputSet files(true);
+      REQUIRE(files.prepare({folder / "a", folder / "b", folder / "c"}).ok());
+      for (const char* name : {"a", "b", "c"}) REQUIRE(files.write(folder / name, "new").ok());
+      folder.write("c/kept", "in what has become a folder");
+      CHECK_THAT(files.commit().message(), Catch::Contains(folder / "c"));
+    }
+    Names after = before;
+    after.insert({"c", "c/kept"});
+    CHECK(folder.names() == after);
+    if (there_before) CHECK(read_text(folder / "a") == "old");
+  }
+}
+
+TEST_CASE("a temporary file that is taken away or replaced halts the whole set") {
+  for (const bool by_link : {false, true}) {
+    const TempFolder folder;
+    folder.write("a", "old a");
+    folder.write("victim", "precious");
+    OutputSet files(true);
+    REQUIRE(files.prepare({folder / "a", folder / "b"}).ok());
+    REQUIRE(files.write(folder / "a", "new").ok());
+    Names others = folder.names();
+    REQUIRE(files.write(folder / "b", "new").ok());
+    for (const std::string& name : folder.names()) {
+      if (others.count(name) == 1) continue;
+      std::filesystem::remove(folder / name);
+      if (by_link) std::filesystem::create_symlink("victim", folder / name);
+    }
+    CHECK_FALSE(files.write(folder / "b", "more").ok());
+    CHECK_FALSE(files.commit().ok());
+    CHECK(read_text(folder / "a") == "old a");
+    CHECK(read_text(folder / "victim") == "precious");
+    CHECK_FALSE(std::filesystem::exists(folder / "b"));
+  }
+}
+
+TEST_CASE(
+    "temporary names differ each time, and fit where the target's name is as long as may be") {
+  const TempFolder folder;
+  const std::string longest(255, 'x');
+  std::set<std::string> seen;
+  for (int i = 0; i < 3; ++i) {
+    OutputSet files(true);
+    REQUIRE(files.prepare({folder / longest}).ok());
+    REQUIRE(files.write(folder / longest, "text").ok());
+    for (const std::string& name : folder.names()) {
+      if (name != longest) CHECK(seen.insert(name).second);
+    }
+    REQUIRE(files.commit().ok());
+  }
+  CHECK(seen.size() == 3);
+  CHECK(folder.names() == Names{longest});
+}
+
+TEST_CASE("of two writers one wins, whole") {
+  const TempFolder folder;
+  for (const bool overwrite : {false, true}) {
+    const std::string target = folder / (overwrite ? "with" : "without");
+    OutputSet first(overwrite);
+    OutputSet second(overwrite);
+    for (OutputSet* set : {&first, &second}) REQUIRE(set->prepare({target}).ok());
+    REQUIRE(first.write(target, "first ").ok());
+    REQUIRE(second.write(target, "second ").ok());
+    REQUIRE(first.write(target, "writer").ok());
+    REQUIRE(second.write(target, "writer").ok());
+    REQUIRE(first.commit().ok());
+    CHECK(second.commit().ok() == overwrite);
+    CHECK(read_text(target) == (overwrite ? "second writer" : "first writer"));
+  }
+  CHECK(folder.names() == Names{"with", "without"});
+}
+
+TEST_CASE("new files have the permissions that the user's mask leaves") {
+  const TempFolder folder;
+  const mode_t mask = ::umask(027);
+  OutputSet files(false);
+  REQUIRE(files.prepare({folder / "a"}).ok());
+  REQUIRE(files.write(folder / "a", "x").ok());
+  REQUIRE(files.commit().ok());
+  ::umask(mask);
+  CHECK(std::filesystem::status(folder / "a").permissions() == std::filesystem::perms{0640});
 }
 
 TEST_CASE("output names") {
