@@ -128,7 +128,8 @@ int run(const Options& o) {
   if (status.ok()) status = load(o, o.other, console, b);
   if (!status.ok()) return fail(console, status);
   Comparison comparison;
-  status = compare_sequences(a.sequence, b.sequence, comparison);
+  status = compare_sequences(a.sequence, b.sequence, comparison, a.report.remainders,
+                             b.report.remainders);
   if (!status.ok()) {
     console.error(a.name + " against " + b.name + ": " + status.message());
     if (a.reordered() != b.reordered()) {

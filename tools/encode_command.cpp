@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/command.h"
 #include "tools/io/output_set.h"
@@ -59,6 +60,33 @@ void choose_target(const Options& o, const Sequence& sequence, EncodeOptions& ou
   if (o.lossless) out.target = Target::kLossless;
 }
 
+/// Rounding to binary32 is part of the largest error.
+Status allow_for_rounding(const ReadReport& read, EncodeOptions& out) {
+  if (out.target != Target::kMaxError || read.largest_remainder == 0) return {};
+  if (out.target_value > read.largest_remainder) {
+    out.target_value -= read.largest_remainder;
+    return {};
+  }
+  return Status::invalid("a largest error of " + brief(out.target_value) +
+                         " is out of reach: binary32 alone rounds the positions by up to " +
+                         brief(read.largest_remainder) +
+                         "; subtract an offset from all frames, or allow more");
+}
+
+/// Figures against what the files say, where that is more than the sequence holds.
+Status count_rounding(const Sequence& sequence, const ReadReport& read,
+                      const std::vector<uint8_t>& bytes, EncodeStats& stats) {
+  Sequence decoded;
+  Status status = decode_sequence(bytes, {}, decoded);
+  Comparison comparison;
+  if (status.ok()) status = compare_sequences(sequence, decoded, comparison, read.remainders);
+  if (!status.ok()) return status;
+  stats.kg = comparison.overall.kg;
+  stats.rmse = comparison.overall.rmse;
+  stats.max_error = comparison.overall.max_error;
+  return {};
+}
+
 Status write_stream(const Options& o, const std::vector<uint8_t>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (o.output == "-") {
@@ -72,14 +100,20 @@ Status write_stream(const Options& o, const std::vector<uint8_t>& bytes) {
   return status.ok() ? files.commit() : status;
 }
 
-void report(const Options& o, const Sequence& sequence, const EncodeStats& stats,
-            Console& console) {
+void report(const Options& o, const Sequence& sequence, const ReadReport& read,
+            const EncodeStats& stats, Console& console) {
   const double diagonal = bounding_diagonal(sequence);
   const double relative = diagonal > 0 ? 100 * stats.max_error / diagonal : 0;
   const double ratio = static_cast<double>(raw_bytes(sequence)) / static_cast<double>(stats.bytes);
   console.say(o.output + ": " + byte_size(stats.bytes) + ", " + brief(stats.bpvf) +
               " bits per vertex and frame, " + brief(ratio, 3) + " times smaller than float32");
-  if (o.lossless) console.say("lossless: every position is kept to the bit");
+  if (o.lossless) {
+    console.say(read.largest_remainder == 0
+                    ? "lossless: every position is kept to the bit"
+                    : "lossless: every position is kept to the bit as binary32 holds it, that is "
+                      "with an error of up to " +
+                          brief(stats.max_error));
+  }
   if (!o.lossless)
     console.say("error: KG " + brief(stats.kg) + " %, RMSE " + brief(stats.rmse) + ", maximum " +
                 brief(stats.max_error) + " (" + brief(relative) + " % of the diagonal)");
@@ -130,6 +164,7 @@ int run(Options& o) {
                  counted(sequence.shots[0].connectivity.vertex_count, "vertex") + " read");
 
   choose_target(o, sequence, o.encoder);
+  if (status = allow_for_rounding(read, o.encoder); !status.ok()) return fail(console, status);
   o.encoder.threads = o.threads;
   if (const auto bar = console.bar("encoding")) {
     o.encoder.progress = [bar](double done) {
@@ -141,10 +176,14 @@ int run(Options& o) {
   EncodeStats stats;
   status = encode(sequence, o.encoder, bytes, stats);
   if (status.ok() && o.encoder.progress) o.encoder.progress(1);
+  const bool order_kept = !o.encoder.reorder;  // else there is nothing to compare with
+  if (status.ok() && read.largest_remainder > 0 && order_kept) {
+    status = count_rounding(sequence, read, bytes, stats);
+  }
   if (status.ok()) status = write_stream(o, bytes);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);
-  report(o, sequence, stats, console);
+  report(o, sequence, read, stats, console);
   return kExitDone;
 }
 
@@ -246,8 +285,9 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<Options>();
   command
       ->add_option("INPUT", o->inputs,
-                   "A folder, a pattern (walk/*.obj, f_%04d.ply), mesh files, a mesh and a point "
-                   "cache (.pc2, .mdd), or a .reeb file; - = a .reeb stream on standard input")
+                   "A folder or a pattern (walk/*.obj, f_%04d.ply), ordered by the numbers in the "
+                   "names; mesh files in the order given; a mesh and a point cache (.pc2, .mdd); "
+                   "or a .reeb file; - = a .reeb stream on standard input")
       ->required()
       ->type_name("");
   command->add_option("-o,--output", o->output, "The .reeb file; - = standard output")

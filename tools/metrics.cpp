@@ -22,7 +22,17 @@ struct Sums {
   uint64_t vertices = 0;
 };
 
-double squared_spread(std::span<const float> a) {
+/// Coordinates of a frame as the files say them.
+struct Coordinates {
+  std::span<const float> positions;
+  std::span<const float> remainders;  ///< empty where all are 0
+
+  size_t size() const { return positions.size(); }
+  double remainder(size_t i) const { return remainders.empty() ? 0.0 : remainders[i]; }
+  double operator[](size_t i) const { return positions[i] + remainder(i); }
+};
+
+double squared_spread(const Coordinates& a) {
   const auto n = static_cast<double>(a.size() / 3);
   std::array<double, 3> mean{};
   for (size_t i = 0; i < a.size(); ++i) mean[i % 3] += a[i];
@@ -35,14 +45,14 @@ double squared_spread(std::span<const float> a) {
   return sum;
 }
 
-Sums frame_sums(std::span<const float> a, std::span<const float> b) {
+Sums frame_sums(const Coordinates& a, const Coordinates& b) {
   Sums sums;
   sums.vertices = a.size() / 3;
   sums.spread = squared_spread(a);
   for (size_t v = 0; v < sums.vertices; ++v) {
     double squared = 0;
     for (size_t i = 3 * v; i < 3 * v + 3; ++i) {
-      const double d = double{a[i]} - double{b[i]};
+      const double d = a[i] - b[i];
       squared += d * d;
       if (std::abs(d) > sums.max_error) {
         sums.max_error = std::abs(d);
@@ -52,6 +62,16 @@ Sums frame_sums(std::span<const float> a, std::span<const float> b) {
     sums.error += squared;
   }
   return sums;
+}
+
+bool same_bits(const Coordinates& a, const Coordinates& b) {
+  if (std::memcmp(a.positions.data(), b.positions.data(), a.positions.size_bytes()) != 0) {
+    return false;
+  }
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a.remainder(i) != b.remainder(i)) return false;
+  }
+  return true;
 }
 
 ErrorFigures figures(const Sums& sums) {
@@ -65,9 +85,17 @@ ErrorFigures figures(const Sums& sums) {
 /// Steps through the frames of a sequence, shot after shot.
 class FrameWalker {
  public:
-  explicit FrameWalker(const Sequence& sequence) : sequence_(sequence) { skip_empty(); }
+  FrameWalker(const Sequence& sequence, const Remainders& remainders)
+      : sequence_(sequence), remainders_(remainders) {
+    skip_empty();
+  }
   const Shot& shot() const { return sequence_.shots[shot_]; }
-  std::span<const float> positions() const { return shot().frame(frame_); }
+  Coordinates coordinates() const {
+    const std::span<const float> positions = shot().frame(frame_);
+    if (remainders_.empty() || remainders_[shot_].empty()) return {positions, {}};
+    return {positions,
+            std::span(remainders_[shot_]).subspan(frame_ * positions.size(), positions.size())};
+  }
   void next() {
     ++frame_;
     skip_empty();
@@ -82,6 +110,7 @@ class FrameWalker {
   }
 
   const Sequence& sequence_;
+  const Remainders& remainders_;
   size_t shot_ = 0;
   uint32_t frame_ = 0;
 };
@@ -137,7 +166,9 @@ double bounding_diagonal(const Sequence& sequence) {
   return std::sqrt(squared);
 }
 
-Status compare_sequences(const Sequence& original, const Sequence& other, Comparison& out) {
+Status compare_sequences(const Sequence& original, const Sequence& other, Comparison& out,
+                         const Remainders& original_remainders,
+                         const Remainders& other_remainders) {
   out = Comparison();
   const uint32_t count = original.frame_count();
   if (count != other.frame_count()) {
@@ -146,8 +177,8 @@ Status compare_sequences(const Sequence& original, const Sequence& other, Compar
   }
   out.diagonal = bounding_diagonal(original);
   Sums total;
-  FrameWalker a(original);
-  FrameWalker b(other);
+  FrameWalker a(original, original_remainders);
+  FrameWalker b(other, other_remainders);
   const Shot* checked_a = nullptr;
   const Shot* checked_b = nullptr;
   for (uint32_t t = 0; t < count; ++t, a.next(), b.next()) {
@@ -157,9 +188,8 @@ Status compare_sequences(const Sequence& original, const Sequence& other, Compar
       checked_a = &a.shot();
       checked_b = &b.shot();
     }
-    const Sums sums = frame_sums(a.positions(), b.positions());
-    out.identical = out.identical && std::memcmp(a.positions().data(), b.positions().data(),
-                                                 a.positions().size_bytes()) == 0;
+    const Sums sums = frame_sums(a.coordinates(), b.coordinates());
+    out.identical = out.identical && same_bits(a.coordinates(), b.coordinates());
     out.frames.push_back(figures(sums));
     total.error += sums.error;
     total.spread += sums.spread;

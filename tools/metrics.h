@@ -6,6 +6,7 @@
 
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
+#include "tools/remainders.h"
 
 namespace reeb::tools {
 
@@ -22,7 +23,7 @@ struct Comparison {
   double diagonal = 0;      ///< of the bounding box of all frames of the original
   uint64_t max_frame = 0;   ///< frame of the largest error, from 0
   uint64_t max_vertex = 0;  ///< its vertex, from 0
-  bool identical = true;    ///< every coordinate has the same bits
+  bool identical = true;    ///< every coordinate has the same bits, and the same remainder
 
   /// The largest error by the diagonal; 0 where both are 0.
   double relative_max_error() const;
@@ -32,8 +33,12 @@ struct Comparison {
 /// all frames, the mean taken per frame and axis (Z. Karni, C. Gotsman, "Compression of soft-body
 /// animation sequences", Computers & Graphics 28, 2004); infinite where only the denominator is 0.
 ///
+/// The remainders of both sides are counted to their positions.
+///
 /// Fails, naming the frame, where the number of frames, the vertex counts or the faces differ.
-Status compare_sequences(const Sequence& original, const Sequence& other, Comparison& out);
+Status compare_sequences(const Sequence& original, const Sequence& other, Comparison& out,
+                         const Remainders& original_remainders = {},
+                         const Remainders& other_remainders = {});
 
 /// Vertices times frames: what bits per vertex and frame are divided by.
 uint64_t vertex_frames(const Sequence& sequence);

@@ -78,6 +78,23 @@ TEST_CASE("identical sequences, and a single point") {
   CHECK_FALSE(c.identical);
 }
 
+TEST_CASE("remainders are part of the positions") {
+  // As in the original, but for a quarter that the numbers cannot hold.
+  const Remainders quarter{{0, 0, 0, 0.25f, 0, 0, 0, 0, 0, 0, 0, 0}};
+  Comparison c;
+  REQUIRE(compare_sequences(original(), original(), c, quarter).ok());
+  CHECK_FALSE(c.identical);
+  CHECK(c.overall.max_error == 0.25);
+  CHECK(c.overall.rmse == Approx(std::sqrt(0.0625 / 4)));
+  // Frame 1: (0,0,0), (2.25,0,0), spread 2 * 1.125^2; frame 2 has 8.
+  CHECK(c.overall.kg == Approx(100 * std::sqrt(0.0625 / (2 * 1.125 * 1.125 + 8))));
+  REQUIRE(compare_sequences(original(), original(), c, {}, quarter).ok());
+  CHECK(c.overall.max_error == 0.25);
+  REQUIRE(compare_sequences(original(), original(), c, quarter, quarter).ok());
+  CHECK(c.identical);
+  CHECK(c.overall.max_error == 0);
+}
+
 TEST_CASE("shots may be cut differently") {
   Sequence cut = moved();
   Shot second = cut.shots[0];

@@ -3,44 +3,20 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <regex>
 
+#include "tools/io/frame_order.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/point_cache.h"
+#include "tools/text.h"
 
 namespace reeb::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Runs of digits and runs of other characters, in turn.
-std::vector<std::string> pieces(const std::string& text) {
-  std::vector<std::string> out;
-  for (size_t i = 0; i < text.size();) {
-    size_t end = i + 1;
-    while (end < text.size() && is_digit(text[end]) == is_digit(text[i])) ++end;
-    out.push_back(text.substr(i, end - i));
-    i = end;
-  }
-  return out;
-}
-
-std::string without_zeros(const std::string& digits) {
-  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
-}
-
-int compare_numbers(const std::string& a, const std::string& b) {
-  const std::string x = without_zeros(a);
-  const std::string y = without_zeros(b);
-  if (x.size() != y.size()) return x.size() < y.size() ? -1 : 1;
-  return x.compare(y);
-}
-
-bool is_stream(const fs::path& path) { return path == "-" || path.extension() == ".reeb"; }
+bool is_stream(const fs::path& path) { return path == "-" || lower_extension(path) == ".reeb"; }
 
 Status no_files(const std::string& input) {
   return Status::io(input + ": no such file, and no files match; check the name");
@@ -72,91 +48,108 @@ void match_numbers(const NumberPattern& pattern, std::vector<fs::path>& out) {
   }
 }
 
+// The folders of a pattern that exist as they stand are no pattern.
+std::string with_literal_folders(const std::string& pattern) {
+  fs::path literal = fs::path(pattern).parent_path();
+  while (!literal.empty() && !fs::exists(literal)) literal = literal.parent_path();
+  std::string out;
+  for (const char c : literal.string()) {
+    if (std::string_view("*?[\\").find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out + pattern.substr(literal.string().size());
+}
+
 void match_wildcards(const std::string& pattern, std::vector<fs::path>& out) {
   glob_t found{};
-  if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
+  if (::glob(with_literal_folders(pattern).c_str(), 0, nullptr, &found) == 0) {
     out.insert(out.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
   }
   ::globfree(&found);
 }
 
-// Files named by one argument.
-Status expand(const std::string& input, std::vector<fs::path>& out) {
+/// The files that one argument names.
+struct Argument {
+  std::vector<fs::path> files;
+  bool by_name = false;  ///< the argument is one of them
+};
+
+Status expand(const std::string& input, Argument& out) {
   std::error_code ignored;
   const fs::file_status kind = fs::status(input, ignored);
-  if (fs::is_directory(kind)) return list_folder(input, out);
+  if (fs::is_directory(kind)) return list_folder(input, out.files);
   if (input == "-" || fs::exists(kind)) {
-    out.emplace_back(input);
+    out = {{input}, true};
     return {};
   }
-  const size_t before = out.size();
   NumberPattern numbers;
-  if (NumberPattern::parse(input, numbers)) {
-    match_numbers(numbers, out);
-  } else if (input.find_first_of("*?[") != input.npos) {
-    match_wildcards(input, out);
+  if (NumberPattern::parse(input, numbers)) match_numbers(numbers, out.files);
+  // A folder that exists may be named like a printf pattern.
+  if (out.files.empty() && input.find_first_of("*?[") != input.npos) {
+    match_wildcards(input, out.files);
   }
-  return out.size() == before ? no_files(input) : Status();
+  return out.files.empty() ? no_files(input) : Status();
 }
 
-/// Where the names of all files differ in exactly one number: its place among the pieces.
-std::optional<size_t> numbered_piece(const std::vector<std::vector<std::string>>& names) {
-  std::optional<size_t> place;
-  for (const auto& name : names) {
-    if (name.size() != names[0].size()) return std::nullopt;
-    for (size_t i = 0; i < name.size(); ++i) {
-      if (name[i] == names[0][i]) continue;
-      const bool both_numbers = is_digit(name[i][0]) && is_digit(names[0][i][0]);
-      if (!both_numbers || (place && *place != i)) return std::nullopt;
-      place = i;
-    }
+// The files of a folder or a pattern.
+Status put_in_order(bool allow_gaps, std::vector<fs::path>& files,
+                    std::vector<std::string>& notes) {
+  FrameOrder order = order_by_name(files);
+  if (!order.doubt.empty()) {
+    return Status::invalid(order.doubt +
+                           "; rename or move what does not belong, or name the files one by one");
   }
-  return place;
-}
-
-std::string file_name_with(std::vector<std::string> name, size_t place, unsigned long long number) {
-  std::string digits = std::to_string(number);
-  const bool padded = name[place].size() > 1 && name[place][0] == '0';
-  if (padded && digits.size() < name[place].size()) {
-    digits.insert(0, name[place].size() - digits.size(), '0');
-  }
-  name[place] = digits;
-  std::string out;
-  for (const std::string& piece : name) out += piece;
-  return out;
-}
-
-// `files` in natural order.
-Status check_numbering(const std::vector<fs::path>& files) {
-  std::vector<std::vector<std::string>> names;
-  for (const fs::path& file : files) names.push_back(pieces(file.string()));
-  const std::optional<size_t> place = numbered_piece(names);
-  if (!place) return {};
-  for (size_t i = 1; i < names.size(); ++i) {
-    if (names[i][*place].size() > 18 || names[i - 1][*place].size() > 18) return {};
-    const unsigned long long previous = std::stoull(names[i - 1][*place]);
-    const unsigned long long number = std::stoull(names[i][*place]);
-    if (number == previous) {
-      return Status::corrupt(files[i].string() + " and " + files[i - 1].string() +
-                             ": two files have one frame number; remove or rename one");
-    }
-    if (number != previous + 1) {
-      return Status::corrupt(file_name_with(names[i - 1], *place, previous + 1) + ": frame " +
-                             std::to_string(previous + 1) + " is missing between " +
-                             files[i - 1].string() + " and " + files[i].string() +
-                             "; restore it, or pass --allow-gaps to go on without it");
-    }
-  }
+  if (!order.gap.empty() && !allow_gaps) return Status::corrupt(order.gap);
+  if (!order.note.empty()) notes.push_back(order.note);
+  files = std::move(order.files);
   return {};
 }
 
-// The mesh that carries the faces of a lone cache: same folder, same name.
-Status mesh_beside(const fs::path& cache, fs::path& out) {
-  for (const char* extension : {".obj", ".ply", ".off", ".stl"}) {
-    out = cache;
-    out.replace_extension(extension);
-    if (fs::exists(out)) return {};
+// Files named one by one, perhaps by a shell.
+Status keep_order(bool allow_gaps, std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  FrameOrder order = order_by_name(files);
+  if (order.files != files) {
+    if (!std::is_sorted(files.begin(), files.end())) return {};
+    if (!order.doubt.empty()) {
+      return Status::invalid(order.doubt +
+                             ", and the order is that of a shell (1, 10, 2); leave "
+                             "out what does not belong, or name a folder");
+    }
+    notes.push_back(files[0].string() + " and " + grouped(files.size() - 1) +
+                    " more: ordered by number, not as a shell sorts files (1, 10, 2)");
+    files = std::move(order.files);
   }
+  if (!order.gap.empty() && !allow_gaps) return Status::corrupt(order.gap);
+  if (!order.doubt.empty()) notes.push_back(order.doubt + "; the order given is kept");
+  return {};
+}
+
+Status put_in_order(std::vector<Argument>& arguments, bool allow_gaps, InputFiles& out) {
+  const bool one_by_one =
+      arguments.size() > 1 &&
+      std::all_of(arguments.begin(), arguments.end(), [](const Argument& a) { return a.by_name; });
+  for (Argument& argument : arguments) {
+    if (Status status = put_in_order(allow_gaps, argument.files, out.notes); !status.ok())
+      return status;
+    out.meshes.insert(out.meshes.end(), argument.files.begin(), argument.files.end());
+  }
+  return one_by_one ? keep_order(allow_gaps, out.meshes, out.notes) : Status();
+}
+
+// The mesh that carries the faces of a lone cache: same folder, same name, an extension in any
+// case.
+Status mesh_beside(const fs::path& cache, fs::path& out) {
+  const fs::path folder = cache.has_parent_path() ? cache.parent_path() : ".";
+  std::optional<MeshFormat> best;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const fs::path name = entry.path().filename();
+    const std::optional<MeshFormat> format = mesh_format(name);
+    if (!format || name.stem() != cache.stem() || (best && *best <= *format)) continue;
+    best = format;
+    out = cache.parent_path() / name;
+  }
+  if (best) return {};
   return Status::io(cache.string() + ": a point cache has no faces and there is no " +
                     fs::path(cache).replace_extension(".obj").string() +
                     "; name the mesh before the cache");
@@ -197,21 +190,12 @@ Status check_formats(const std::vector<fs::path>& files) {
 
 }  // namespace
 
-bool natural_less(const std::string& a, const std::string& b) {
-  const std::vector<std::string> x = pieces(a);
-  const std::vector<std::string> y = pieces(b);
-  for (size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
-    const bool numbers = is_digit(x[i][0]) && is_digit(y[i][0]);
-    const int order = numbers ? compare_numbers(x[i], y[i]) : x[i].compare(y[i]);
-    if (order != 0) return order < 0;
-  }
-  return x.size() != y.size() ? x.size() < y.size() : a < b;
-}
-
 Status find_input(const std::vector<std::string>& inputs, bool allow_gaps, InputFiles& out) {
+  std::vector<Argument> arguments(inputs.size());
   std::vector<fs::path> files;
-  for (const std::string& input : inputs) {
-    if (Status status = expand(input, files); !status.ok()) return status;
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    if (Status status = expand(inputs[i], arguments[i]); !status.ok()) return status;
+    files.insert(files.end(), arguments[i].files.begin(), arguments[i].files.end());
   }
   if (files.empty()) return Status::invalid("no input");
   if (std::any_of(files.begin(), files.end(), is_stream)) {
@@ -225,21 +209,18 @@ Status find_input(const std::vector<std::string>& inputs, bool allow_gaps, Input
     return pair_with_cache(files, out);
   }
   if (Status status = check_formats(files); !status.ok()) return status;
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.string(), b.string());
-  });
-  if (!allow_gaps) {
-    if (Status status = check_numbering(files); !status.ok()) return status;
-  }
-  out.meshes = std::move(files);
-  return {};
+  return put_in_order(arguments, allow_gaps, out);
 }
 
 bool NumberPattern::parse(const std::string& text, NumberPattern& out) {
   static const std::regex field("%(0([1-9][0-9]?))?d");
+  const size_t slash = text.rfind('/');
+  const size_t name = slash == text.npos ? 0 : slash + 1;
+  const bool in_name = std::regex_search(text.substr(name), field);
+  const std::string searched = in_name ? text.substr(name) : text;
   std::smatch match;
-  if (!std::regex_search(text, match, field)) return false;
-  out.prefix = match.prefix();
+  if (!std::regex_search(searched, match, field)) return false;
+  out.prefix = (in_name ? text.substr(0, name) : "") + match.prefix().str();
   out.suffix = match.suffix();
   out.digits = match[2].matched ? std::stoul(match[2]) : 0;
   return !std::regex_search(out.suffix, field);
@@ -247,7 +228,7 @@ bool NumberPattern::parse(const std::string& text, NumberPattern& out) {
 
 std::string NumberPattern::name(int64_t number) const {
   std::string text = std::to_string(number);
-  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+  if (text.size() < digits) text.insert(number < 0 ? 1 : 0, digits - text.size(), '0');
   return prefix + text + suffix;
 }
 
@@ -256,9 +237,11 @@ bool NumberPattern::matches(const std::string& text) const {
   if (!text.starts_with(prefix) || !text.ends_with(suffix)) return false;
   const std::string number =
       text.substr(prefix.size(), text.size() - prefix.size() - suffix.size());
-  const bool width =
-      digits == 0 || number.size() == digits || (number.size() > digits && number[0] != '0');
-  return width && std::all_of(number.begin(), number.end(), is_digit);
+  const std::string unsigned_number = number.substr(number[0] == '-' ? 1 : 0);
+  const bool width = digits == 0 || number.size() == digits ||
+                     (number.size() > digits && unsigned_number[0] != '0');
+  return width && !unsigned_number.empty() &&
+         std::all_of(unsigned_number.begin(), unsigned_number.end(), is_digit);
 }
 
 }  // namespace reeb::tools

@@ -51,10 +51,15 @@ Status check_corners(const Connectivity& connectivity) {
 
 }  // namespace
 
-std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
+std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
   if (extension == ".ply") return MeshFormat::kPly;
   if (extension == ".off") return MeshFormat::kOff;
@@ -68,8 +73,10 @@ Status read_mesh(std::string_view bytes, MeshFormat format, const MeshReference*
   Status status = read_format(bytes, format, reference, out);
   if (!status.ok()) return status;
   if (out.positions.empty()) {
-    return Status::corrupt("the mesh is empty: no vertices were found; export the frame again");
+    return Status::corrupt(
+        "the mesh has no vertices, and a sequence has no empty frames; leave it out");
   }
+  if (!out.remainders.empty()) out.remainders.resize(out.positions.size());
   if (out.positions.size() / 3 > UINT32_MAX) {
     return Status::corrupt("more than 4,294,967,295 vertices; split the mesh");
   }

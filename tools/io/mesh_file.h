@@ -2,9 +2,10 @@
 //
 // Vertex order, vertex count, isolated and duplicate vertices, degenerate, repeated and
 // non-manifold faces and polygons come through as the file has them; positions are the float32
-// values nearest to what the file says. OpenMesh would drop or split faces that share an edge more
-// than twice or are listed twice, so these readers are our own (tests/tools/openmesh_test.cpp shows
-// it).
+// values nearest to what the file says. Readers take only what they understand to the last byte:
+// anything else is an error, or is listed in `unkept` or `notes`. OpenMesh would drop or split
+// faces that share an edge more than twice or are listed twice, so these readers are our own
+// (tests/tools/io/openmesh_test.cpp shows it).
 #pragma once
 
 #include <filesystem>
@@ -15,6 +16,7 @@
 
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
+#include "tools/io/text_number.h"
 
 namespace reeb::tools {
 
@@ -23,18 +25,33 @@ enum class MeshFormat { kObj, kPly, kOff, kStl };
 /// By the extension, in any case.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
 
+/// The extension in lower case, with its point.
+std::string lower_extension(const std::filesystem::path& path);
+
 /// An earlier frame. A frame with the same connectivity is read faster and does not keep it again.
 struct MeshReference {
   Connectivity connectivity;
   std::string face_text;  ///< OBJ: everything from the first face on; empty where vertices follow
 };
 
+/// Something that a file has and a Sequence does not.
+struct Unkept {
+  std::string name;  ///< as in "only positions and faces are kept, not: NAME"
+  uint64_t count = 0;
+
+  bool operator==(const Unkept&) const = default;
+};
+
 struct MeshFrame {
   bool same_connectivity = false;  ///< as in the reference; then `connectivity` is empty
   Connectivity connectivity;
-  std::vector<float> positions;  ///< [vertex][xyz], finite
-  std::string_view face_text;    ///< part of the bytes read, see MeshReference
-  std::string dropped;           ///< what the file has and a Sequence does not, e.g. "normals"
+  std::vector<float> positions;   ///< [vertex][xyz], finite
+  std::vector<float> remainders;  ///< see Real, [vertex][xyz]; empty where all are 0
+  std::string_view face_text;     ///< part of the bytes read, see MeshReference
+  std::vector<Unkept> unkept;
+  std::vector<std::string> notes;  ///< sentences on what is odd but harmless
+
+  void append_coordinate(const Real& x);
 };
 
 /// Reads the bytes of a file. `reference` may be null. A failure's message says the place and the
@@ -56,5 +73,12 @@ Status read_obj(std::string_view bytes, const MeshReference* reference, MeshFram
 Status read_ply(std::string_view bytes, MeshFrame& out);
 Status read_off(std::string_view bytes, MeshFrame& out);
 Status read_stl(std::string_view bytes, const MeshReference* reference, MeshFrame& out);
+
+inline void MeshFrame::append_coordinate(const Real& x) {
+  positions.push_back(x.value);
+  if (x.remainder == 0) return;
+  remainders.resize(positions.size());
+  remainders.back() = x.remainder;
+}
 
 }  // namespace reeb::tools

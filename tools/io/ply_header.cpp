@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "tools/io/text_cursor.h"
@@ -10,30 +9,23 @@
 namespace reeb::tools {
 namespace {
 
-std::optional<PlyType> type_named(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames{{
-      {"char", PlyType::kInt8},
-      {"int8", PlyType::kInt8},
-      {"uchar", PlyType::kUint8},
-      {"uint8", PlyType::kUint8},
-      {"short", PlyType::kInt16},
-      {"int16", PlyType::kInt16},
-      {"ushort", PlyType::kUint16},
-      {"uint16", PlyType::kUint16},
-      {"int", PlyType::kInt32},
-      {"int32", PlyType::kInt32},
-      {"uint", PlyType::kUint32},
-      {"uint32", PlyType::kUint32},
-      {"float", PlyType::kFloat},
-      {"float32", PlyType::kFloat},
-      {"double", PlyType::kDouble},
-      {"float64", PlyType::kDouble},
+PlyType type_named(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 20> kNames{{
+      {"char", PlyType::kInt8},     {"int8", PlyType::kInt8},      {"uchar", PlyType::kUint8},
+      {"uint8", PlyType::kUint8},   {"short", PlyType::kInt16},    {"int16", PlyType::kInt16},
+      {"ushort", PlyType::kUint16}, {"uint16", PlyType::kUint16},  {"int", PlyType::kInt32},
+      {"int32", PlyType::kInt32},   {"uint", PlyType::kUint32},    {"uint32", PlyType::kUint32},
+      {"int64", PlyType::kInt64},   {"long", PlyType::kInt64},     {"uint64", PlyType::kUint64},
+      {"ulong", PlyType::kUint64},  {"float", PlyType::kFloat},    {"float32", PlyType::kFloat},
+      {"double", PlyType::kDouble}, {"float64", PlyType::kDouble},
   }};
   for (const auto& [text, type] : kNames) {
     if (text == name) return type;
   }
-  return std::nullopt;
+  return PlyType::kUnknown;
 }
+
+bool is_integer(PlyType type) { return type < PlyType::kFloat; }
 
 class HeaderReader {
  public:
@@ -41,14 +33,15 @@ class HeaderReader {
 
   Status run() {
     if (next() != "ply") return in_.error("not a PLY file; it must begin with ply");
-    for (in_.next_line(); !in_.done(); in_.next_line()) {
+    const TextCursor first_end = in_;
+    in_.next_line();
+    while (!in_.done()) {
       const std::string_view keyword = next();
-      if (keyword == "end_header") {
-        in_.next_line();
-        out_.bytes = in_.offset();
-        return {};
-      }
+      if (keyword == "end_header") return end_header(first_end);
       if (Status status = read_line(keyword); !status.ok()) return status;
+      in_.skip_blanks();
+      if (!in_.at_line_end()) return in_.unexpected("the end of the line");
+      in_.next_line();
     }
     return in_.error("end_header is missing; the file is truncated, export it again");
   }
@@ -59,11 +52,36 @@ class HeaderReader {
     return in_.word();
   }
 
+  // Binary data may begin with what looks like an end of line, so this one is as the first.
+  Status end_header(const TextCursor& first_end) {
+    in_.skip_blanks();
+    const auto ends_in = [](const TextCursor& at, std::string_view end) {
+      return at.rest().starts_with(end);
+    };
+    if (ends_in(in_, "\r\n") && !(ends_in(first_end, "\r") && !ends_in(first_end, "\r\n"))) {
+      in_.advance(2);
+    } else if (ends_in(in_, "\n\r") && ends_in(first_end, "\n\r")) {
+      in_.advance(2);
+    } else if (in_.at_line_end()) {
+      in_.advance(1);
+    } else {
+      return in_.unexpected("the end of the header");
+    }
+    if (!has_format_) return in_.error("the header does not tell the format; export it again");
+    out_.bytes = in_.offset();
+    return check();
+  }
+
   Status read_line(std::string_view keyword) {
     if (keyword == "format") return read_format();
     if (keyword == "element") return read_element();
     if (keyword == "property") return read_property();
-    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return {};
+    if (keyword == "comment" || keyword == "obj_info") {
+      out_.textures += next() == "TextureFile";
+      in_.skip_to_line_end();
+      return {};
+    }
+    if (keyword.empty()) return {};
     return in_.error("unknown word '" + std::string(keyword.substr(0, 40)) + "' in the PLY header");
   }
 
@@ -78,6 +96,8 @@ class HeaderReader {
     } else {
       return in_.error("unknown PLY format");
     }
+    if (next() != "1.0") return in_.error("not PLY 1.0");
+    has_format_ = true;
     return {};
   }
 
@@ -96,21 +116,44 @@ class HeaderReader {
     std::string_view type_name = next();
     property.is_list = type_name == "list";
     if (property.is_list) {
-      const auto count_type = type_named(next());
-      if (!count_type || *count_type >= PlyType::kFloat) return bad_type();
-      property.count_type = *count_type;
+      property.count_type = type_named(next());
       type_name = next();
     }
-    const auto type = type_named(type_name);
-    if (!type) return bad_type();
-    property.type = *type;
+    property.type = type_named(type_name);
     property.name = next();
+    const bool skippable = out_.encoding == PlyEncoding::kAscii && has_format_;
+    if (property.type == PlyType::kUnknown && !skippable) {
+      return in_.error("property '" + property.name + "' has the unknown type '" +
+                       std::string(type_name.substr(0, 40)) + "'; export the file without it");
+    }
+    if (property.is_list && !is_integer(property.count_type)) {
+      return in_.error("the list '" + property.name + "' is counted in a type that is not whole");
+    }
+    if (property.name.empty()) return in_.error("a property needs a type and a name");
     out_.elements.back().properties.push_back(std::move(property));
     return {};
   }
 
-  Status bad_type() const { return in_.error("unknown type of a PLY property"); }
+  Status check() const {
+    for (const std::string_view name : {"vertex", "face"}) {
+      const auto named = [&](const PlyElement& e) { return e.name == name; };
+      if (std::count_if(out_.elements.begin(), out_.elements.end(), named) > 1) {
+        return in_.error("two elements are named " + std::string(name) + "; export the file again");
+      }
+    }
+    for (const PlyElement& element : out_.elements) {
+      for (const std::string_view name : {"x", "y", "z", "vertex_indices", "vertex_index"}) {
+        const auto named = [&](const PlyProperty& p) { return p.name == name; };
+        if (std::count_if(element.properties.begin(), element.properties.end(), named) > 1) {
+          return in_.error("two properties of " + element.name + " are named " + std::string(name) +
+                           "; export the file again");
+        }
+      }
+    }
+    return {};
+  }
 
+  bool has_format_ = false;
   TextCursor in_;
   PlyHeader& out_;
 };
@@ -125,8 +168,12 @@ size_t ply_size(PlyType type) {
     case PlyType::kInt16:
     case PlyType::kUint16:
       return 2;
+    case PlyType::kInt64:
+    case PlyType::kUint64:
     case PlyType::kDouble:
       return 8;
+    case PlyType::kUnknown:
+      return 0;
     default:
       return 4;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include <span>
 
 #include "tools/io/file_bytes.h"
+#include "tools/io/mesh_file.h"
 #include "tools/text.h"
 
 namespace reeb::tools {
@@ -40,9 +40,9 @@ void swap_if_foreign(std::span<float> values, CacheFormat format) {
 
 class CacheReader {
  public:
-  CacheReader(const fs::path& path, CacheFormat format, std::FILE* file, uint64_t size,
+  CacheReader(const std::string& name, CacheFormat format, std::FILE* file, uint64_t size,
               PointCache& out)
-      : name_(path.string()), format_(format), file_(file), size_(size), out_(out) {}
+      : name_(name), format_(format), file_(file), size_(size), out_(out) {}
 
   Status run() {
     Status status = format_ == CacheFormat::kPc2 ? read_pc2_header() : read_mdd_header();
@@ -53,6 +53,8 @@ class CacheReader {
 
  private:
   Status error(const std::string& what) const { return Status::corrupt(name_ + ": " + what); }
+
+  void note(const std::string& what) { out_.notes.push_back(name_ + ": " + what); }
 
   bool read_words(std::span<uint32_t> words) {
     if (std::fread(words.data(), 4, words.size(), file_) != words.size()) return false;
@@ -69,13 +71,21 @@ class CacheReader {
     }
     if (words[0] != 1)
       return error("PC2 version " + std::to_string(words[0]) + " is not supported");
-    out_.start_time = std::bit_cast<float>(words[2]);
-    out_.frames_per_sample = std::bit_cast<float>(words[3]);
-    if (!std::isfinite(out_.start_time)) out_.start_time = 0;
-    if (!(out_.frames_per_sample > 0) || std::isinf(out_.frames_per_sample)) {
-      out_.frames_per_sample = 1;
-    }
+    take_pc2_times(std::bit_cast<float>(words[2]), std::bit_cast<float>(words[3]));
     return take_counts(words[1], words[4], kPc2HeaderBytes, 0);
+  }
+
+  void take_pc2_times(double start, double frames_per_sample) {
+    if (std::isfinite(start)) {
+      out_.start_time = start;
+    } else {
+      note("the start frame is no number; 0 is taken");
+    }
+    if (frames_per_sample > 0 && std::isfinite(frames_per_sample)) {
+      out_.frames_per_sample = frames_per_sample;
+    } else {
+      note("the frames per sample are " + brief(frames_per_sample) + "; 1 is taken");
+    }
   }
 
   Status read_mdd_header() {
@@ -104,7 +114,7 @@ class CacheReader {
                    ", the file ends before; it is truncated, export it again");
     }
     if (need < static_cast<double>(size_)) {
-      out_.notes.push_back(name_ + ": bytes after the last frame are ignored");
+      note(counted(size_ - static_cast<uint64_t>(need), "byte") + " behind the last frame ignored");
     }
     out_.point_count = points;
     out_.frame_count = frames;
@@ -114,15 +124,19 @@ class CacheReader {
   // A constant rate explains the times to within float32, or a note says that none does.
   void take_times(const std::vector<float>& times) {
     const double span = double{times.back()} - double{times.front()};
-    if (times.size() < 2 || !(span > 0) || !std::isfinite(span)) return;
+    if (times.size() < 2) return;
+    if (!(span > 0) || !std::isfinite(span)) {
+      note("the times of the frames do not increase; they are ignored");
+      return;
+    }
     const double measured = static_cast<double>(times.size() - 1) / span;
     out_.frame_rate = nearest_usual_rate(measured, times);
     out_.start_time = double{times.front()} * out_.frame_rate;
     const double rounded = std::round(out_.start_time);
     if (std::abs(out_.start_time - rounded) < 1e-4) out_.start_time = rounded;
     if (!evenly_spaced(times, out_.frame_rate)) {
-      out_.notes.push_back(name_ + ": the times of the frames are not evenly spaced; " +
-                           brief(out_.frame_rate, 6) + " frames per second are assumed");
+      note("the times of the frames are not evenly spaced; " + brief(out_.frame_rate, 6) +
+           " frames per second are assumed");
     }
   }
 
@@ -147,7 +161,9 @@ class CacheReader {
 
   Status read_floats(std::vector<float>& values, uint64_t count) {
     values.resize(count);
-    if (std::fread(values.data(), sizeof(float), count, file_) != count) return read_failure(name_);
+    if (std::fread(values.data(), sizeof(float), count, file_) != count) {
+      return std::ferror(file_) ? read_failure(name_) : error("became shorter while it was read");
+    }
     swap_if_foreign(values, format_);
     return {};
   }
@@ -183,9 +199,7 @@ void append_float(std::string& out, double value, CacheFormat format) {
 }  // namespace
 
 std::optional<CacheFormat> cache_format(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   if (extension == ".pc2") return CacheFormat::kPc2;
   if (extension == ".mdd") return CacheFormat::kMdd;
   return std::nullopt;
@@ -199,7 +213,13 @@ Status read_point_cache(const fs::path& path, PointCache& out) {
   std::error_code failed;
   const uintmax_t size = fs::file_size(path, failed);
   if (!file || failed) return read_failure(path.string());
-  return CacheReader(path, *format, file.get(), size, out).run();
+  return read_point_cache(file.get(), size, path.string(), *format, out);
+}
+
+Status read_point_cache(std::FILE* file, uint64_t size, const std::string& name, CacheFormat format,
+                        PointCache& out) {
+  out = PointCache();
+  return CacheReader(name, format, file, size, out).run();
 }
 
 std::string cache_header(CacheFormat format, uint32_t point_count, uint32_t frame_count,

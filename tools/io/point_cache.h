@@ -6,6 +6,7 @@
 // seconds; then float32 xyz [frame][point].
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,6 +41,10 @@ struct PointCache {
 /// Nothing is allocated before the size of the file has confirmed the counts. The message of a
 /// failure names the file, the frame and the remedy.
 Status read_point_cache(const std::filesystem::path& path, PointCache& out);
+
+/// The same from an open file of `size` bytes, `name` for messages.
+Status read_point_cache(std::FILE* file, uint64_t size, const std::string& name, CacheFormat format,
+                        PointCache& out);
 
 /// What precedes the positions.
 std::string cache_header(CacheFormat format, uint32_t point_count, uint32_t frame_count,

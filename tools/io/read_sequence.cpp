@@ -1,12 +1,15 @@
 #include "tools/io/read_sequence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <set>
 
 #include "tools/io/file_bytes.h"
 #include "tools/io/frame_list.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/point_cache.h"
+#include "tools/metrics.h"
 #include "tools/parallel.h"
 #include "tools/text.h"
 
@@ -31,12 +34,90 @@ void read_frame(const fs::path& path, const MeshReference* reference, Slot& slot
   }
 }
 
+/// What is to be said of frames, told once where they have it alike.
+class FrameNotes {
+ public:
+  explicit FrameNotes(std::vector<std::string>& notes) : notes_(notes) {}
+
+  void add(const MeshFrame& mesh, const std::string& name) {
+    std::string names;
+    for (const Unkept& u : mesh.unkept) {
+      if (!told_.insert(u.name).second) continue;
+      names += (names.empty() ? "" : ", ") + u.name + " (" + grouped(u.count) + ")";
+    }
+    if (!names.empty()) {
+      notes_.push_back(name + ": only positions and faces are kept, not: " + names);
+    }
+    if (mesh.notes.empty() || ++odd_files_ > 1) return;
+    for (const std::string& note : mesh.notes) notes_.push_back(name + ": " + note);
+  }
+
+  void finish() {
+    if (odd_files_ < 2) return;
+    notes_.push_back("the same or the like in " + counted(odd_files_ - 1, "further file"));
+  }
+
+ private:
+  std::vector<std::string>& notes_;
+  std::set<std::string> told_;  ///< names of what is not kept
+  size_t odd_files_ = 0;        ///< files with notes of their own
+};
+
+/// Gathers what binary32 does not hold.
+class RemainderList {
+ public:
+  explicit RemainderList(ReadReport& report) : report_(report) {}
+
+  /// Before the positions of `mesh` go to the last shot of `sequence`.
+  void add(const MeshFrame& mesh, const Sequence& sequence, const std::string& name) {
+    if (mesh.remainders.empty()) return;
+    report_.remainders.resize(sequence.shots.size());
+    auto& shot = report_.remainders.back();
+    shot.resize(sequence.shots.back().positions.size());
+    shot.insert(shot.end(), mesh.remainders.begin(), mesh.remainders.end());
+    for (const float x : mesh.remainders) {
+      if (std::abs(double{x}) <= report_.largest_remainder) continue;
+      report_.largest_remainder = std::abs(double{x});
+      largest_in_ = name;
+    }
+  }
+
+  void finish(const Sequence& sequence) {
+    if (report_.remainders.empty()) return;
+    report_.remainders.resize(sequence.shots.size());
+    for (size_t i = 0; i < sequence.shots.size(); ++i) {
+      auto& shot = report_.remainders[i];
+      if (!shot.empty()) shot.resize(sequence.shots[i].positions.size());
+    }
+    const double diagonal = bounding_diagonal(sequence);
+    const double relative = diagonal > 0 ? report_.largest_remainder / diagonal : 1;
+    report_.notes.push_back(largest_in_ +
+                            ": binary32 does not hold the positions as they are written; they are "
+                            "rounded, by up to " +
+                            brief(report_.largest_remainder) + " (" + brief(100 * relative) +
+                            " % of the diagonal)" + (relative > kFarRounding ? kNearer : ""));
+  }
+
+ private:
+  static constexpr double kFarRounding = 1e-6;
+  static constexpr const char* kNearer =
+      "; subtract an offset from all frames, so that they lie nearer to the origin";
+
+  ReadReport& report_;
+  std::string largest_in_;  ///< the file
+};
+
 /// Reads files in batches on several threads and strings them into shots.
 class FrameReader {
  public:
   FrameReader(const std::vector<fs::path>& files, const ReadOptions& options, Sequence& out,
               ReadReport& report)
-      : files_(files), options_(options), out_(out), report_(report) {}
+      : files_(files),
+        options_(options),
+        out_(out),
+        report_(report),
+        notes_(report.notes),
+        remainders_(report) {}
 
   Status run() {
     // The first frame alone, so that all others have a reference to be compared with.
@@ -45,7 +126,10 @@ class FrameReader {
     for (size_t first = 1; first < files_.size() && status.ok(); first += batch) {
       status = read_batch(first, std::min(batch, files_.size() - first));
     }
-    return status;
+    if (!status.ok()) return status;
+    notes_.finish();
+    remainders_.finish(out_);
+    return {};
   }
 
  private:
@@ -78,6 +162,8 @@ class FrameReader {
       if (!reference_ || mesh.connectivity != reference_->connectivity) start_shot(mesh, frame);
     }
     Shot& shot = out_.shots.back();
+    notes_.add(mesh, files_[frame].string());
+    remainders_.add(mesh, out_, files_[frame].string());
     if (frame == 0) shot.positions.reserve(files_.size() * mesh.positions.size());
     shot.positions.insert(shot.positions.end(), mesh.positions.begin(), mesh.positions.end());
     ++shot.frame_count;
@@ -88,8 +174,6 @@ class FrameReader {
     if (reference_) {
       report_.notes.push_back(name + ": " + difference(mesh.connectivity) +
                               "; a new reference starts here");
-    } else if (!mesh.dropped.empty()) {
-      report_.notes.push_back(name + ": only positions and faces are kept, not: " + mesh.dropped);
     }
     reference_ = std::make_shared<MeshReference>(
         MeshReference{mesh.connectivity, std::string(mesh.face_text)});
@@ -113,6 +197,8 @@ class FrameReader {
   const ReadOptions& options_;
   Sequence& out_;
   ReadReport& report_;
+  FrameNotes notes_;
+  RemainderList remainders_;
   std::shared_ptr<const MeshReference> reference_;  ///< of the current shot
   size_t first_of_shot_ = 0;
 };
@@ -138,7 +224,8 @@ Status read_cached(const InputFiles& input, Sequence& out, ReadReport& report) {
   if (cache.frames_per_sample != 1) {
     out.metadata[kSampleRateKey] = brief(cache.frames_per_sample, 9);
   }
-  report.notes = std::move(cache.notes);
+  FrameNotes(report.notes).add(slot.mesh, input.meshes[0].string());
+  report.notes.insert(report.notes.end(), cache.notes.begin(), cache.notes.end());
   return {};
 }
 
@@ -172,6 +259,7 @@ Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& 
   out = Sequence();
   InputFiles input;
   if (Status status = find_input(inputs, options.allow_gaps, input); !status.ok()) return status;
+  report.notes = std::move(input.notes);
   if (!input.stream.empty()) return read_stream(input.stream, options, out, report);
   if (!input.cache.empty()) return read_cached(input, out, report);
   return FrameReader(input.meshes, options, out, report).run();

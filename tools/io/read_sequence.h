@@ -9,6 +9,7 @@
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
 #include "codec/dec/decoder.h"
+#include "tools/remainders.h"
 
 namespace reeb::tools {
 
@@ -22,6 +23,8 @@ struct ReadOptions {
 struct ReadReport {
   std::vector<std::string> notes;    ///< sentences for the user, e.g. where a new reference starts
   std::optional<StreamInfo> stream;  ///< filled where the input is a `.reeb` stream
+  Remainders remainders;             ///< where binary32 does not hold what the files say
+  double largest_remainder = 0;
 };
 
 /// Reads what `inputs` name (see `find_input`). A new shot starts where the connectivity or the

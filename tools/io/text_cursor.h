@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
 #include "bitstream/status.h"
+#include "tools/io/text_number.h"
 
 namespace reeb::tools {
 
-/// Numbers do not depend on the locale; a float is the one nearest to the decimal text.
+/// Lines end in LF, CR, CR LF or LF CR, also by turns. Numbers do not depend on the locale and end
+/// where `ends_number` says so: "0,5" and "1.#IND" are none.
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text)
@@ -26,28 +27,34 @@ class TextCursor {
 
   /// The character `ahead` of here; 0 past the end.
   char peek(size_t ahead = 0) const { return ahead < remaining() ? at_[ahead] : '\0'; }
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+  bool at_line_end() const { return at_ == end_ || is_line_end(*at_); }
+  bool at_number_end() const { return at_ == end_ || ends_number(*at_); }
 
   void skip_blanks() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
   }
   /// Blanks and ends of lines.
   void skip_space() {
-    while (at_ != end_ && (is_blank(*at_) || *at_ == '\n')) ++at_;
+    while (at_ != end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
   }
-  /// Blanks and ends of lines behind a backslash.
+  /// Blanks, and ends of lines behind a backslash.
   void skip_blanks_and_continuations() {
-    for (skip_blanks(); peek() == '\\'; skip_blanks()) {
-      const size_t line_end = peek(1) == '\r' ? 2 : 1;
-      if (peek(line_end) != '\n') return;
-      at_ += line_end + 1;
-    }
+    for (skip_blanks(); peek() == '\\' && skip_continuation();) skip_blanks();
   }
-  bool at_line_end() const { return at_ == end_ || *at_ == '\n'; }
+  void skip_to_line_end() {
+    while (!at_line_end()) ++at_;
+  }
+  /// To the end of the line, or where it continues behind a backslash of the last of its lines.
+  void skip_continued_line();
+  /// A sign and digits, as many as there are.
+  void skip_integer() {
+    if (peek() == '-' || peek() == '+') ++at_;
+    while (at_ != end_ && is_digit(*at_)) ++at_;
+  }
   /// To the first character of the next line.
   void next_line() {
-    const void* const found = std::memchr(at_, '\n', remaining());
-    at_ = found == nullptr ? end_ : static_cast<const char*>(found) + 1;
+    skip_to_line_end();
+    skip_line_end();
   }
   /// The characters up to the next blank or end of line.
   std::string_view word() {
@@ -57,57 +64,42 @@ class TextCursor {
   }
 
   /// Reads a number here and steps behind it; false, without a step, where there is none.
-  bool read(float& value);
-  bool read(int64_t& value);
-  bool read(uint64_t& value);
-
-  /// "line N: WHAT", N the line of this position.
-  Status error(const std::string& what) const {
-    const auto line = std::count(begin_, at_, '\n') + 1;
-    return Status::corrupt("line " + std::to_string(line) + ": " + what);
-  }
-
- private:
-  void skip_plus() {
-    if (peek() == '+' && peek(1) != '-') ++at_;
+  bool read(Real& value) {
+    const char* const stop = read_real(at_, end_, value);
+    if (stop != nullptr) at_ = stop;
+    return stop != nullptr;
   }
   template <typename Integer>
-  bool read_integer(Integer& value) {
+  bool read(Integer& value) {
     const char* const start = at_;
-    skip_plus();
-    const auto [stop, error] = std::from_chars(at_, end_, value);
-    at_ = error == std::errc() ? stop : start;
+    if (read_prefix(value) && at_number_end()) return true;
+    at_ = start;
+    return false;
+  }
+  /// An integer that something else may follow.
+  template <typename Integer>
+  bool read_prefix(Integer& value) {
+    const char* const first = at_ + (peek() == '+' && peek(1) != '-' ? 1 : 0);
+    const auto [stop, error] = std::from_chars(first, end_, value);
+    if (error == std::errc()) at_ = stop;
     return error == std::errc();
   }
+
+  /// "line N: WHAT", N the line of this position.
+  Status error(const std::string& what) const;
+  /// That something else stands where `wanted` should: "line N: '0,5' is not WANTED; ...".
+  Status unexpected(const std::string& wanted) const;
+
+ private:
+  void skip_line_end();
+  bool skip_continuation();
 
   const char* begin_;
   const char* at_;
   const char* end_;
 };
 
-inline bool TextCursor::read(float& value) {
-  const char* const start = at_;
-  skip_plus();
-  const auto [stop, error] = std::from_chars(at_, end_, value);
-  if (error == std::errc::result_out_of_range) {
-    // Too small for float32 is zero, too large is infinity, which the caller refuses.
-    double wide = 0;
-    if (std::from_chars(at_, end_, wide).ec != std::errc()) {
-      const std::string_view number(at_, static_cast<size_t>(stop - at_));
-      const size_t exponent = number.find_first_of("eE");
-      const bool tiny = exponent != number.npos && number.substr(exponent + 1, 1) == "-";
-      wide = tiny ? 0.0 : 1e300;
-    }
-    value = static_cast<float>(wide);
-  } else if (error != std::errc()) {
-    at_ = start;
-    return false;
-  }
-  at_ = stop;
-  return true;
-}
-
-inline bool TextCursor::read(int64_t& value) { return read_integer(value); }
-inline bool TextCursor::read(uint64_t& value) { return read_integer(value); }
+/// A text without its byte-order mark. UTF-16 is refused by name.
+Status open_text(std::string_view bytes, std::string_view& text);
 
 }  // namespace reeb::tools

@@ -31,18 +31,6 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("numbers in names are compared by value") {
-  CHECK(natural_less("f2.obj", "f10.obj"));
-  CHECK_FALSE(natural_less("f10.obj", "f2.obj"));
-  CHECK(natural_less("f009.obj", "f10.obj"));
-  CHECK(natural_less("a2b10", "a2b11"));
-  CHECK(natural_less("a", "b"));
-  CHECK_FALSE(natural_less("f1", "f1"));
-  // Equal in value: the order is still total.
-  CHECK(natural_less("f01", "f1") != natural_less("f1", "f01"));
-  CHECK(natural_less("f99999999999999999999998", "f99999999999999999999999"));
-}
-
 TEST_CASE("a folder, a pattern and a list give the same frames in natural order") {
   const TempFolder folder;
   for (int i = 8; i <= 11; ++i) folder.write(std::to_string(i).insert(0, 1, 'f') + ".obj", "");
@@ -53,9 +41,83 @@ TEST_CASE("a folder, a pattern and a list give the same frames in natural order"
   CHECK(found({folder / "f*.obj"}) == expected);
   CHECK(found({folder / "f?.obj"}) == Names{"f8.obj", "f9.obj"});
   CHECK(found({folder / "f%d.obj"}) == expected);
-  // As a shell expands it.
-  CHECK(found({folder / "f10.obj", folder / "f11.obj", folder / "f8.obj", folder / "f9.obj"}) ==
-        expected);
+  // As a shell expands it; the note says so.
+  const std::vector<std::string> expanded{folder / "f10.obj", folder / "f11.obj", folder / "f8.obj",
+                                          folder / "f9.obj"};
+  CHECK(found(expanded) == expected);
+  InputFiles files;
+  REQUIRE(find_input(expanded, false, files).ok());
+  REQUIRE(files.notes.size() == 1);
+  CHECK_THAT(files.notes[0], Catch::Contains("ordered by number"));
+}
+
+TEST_CASE("files named one by one keep their order") {
+  const TempFolder folder;
+  for (const char* name : {"f_0.obj", "f_1.obj", "f_2.obj", "f_5.obj", "f_1 copy.obj"}) {
+    folder.write(name, "");
+  }
+  CHECK(found({folder / "f_2.obj", folder / "f_1.obj", folder / "f_0.obj"}) ==
+        Names{"f_2.obj", "f_1.obj", "f_0.obj"});
+  CHECK(found({folder / "f_0.obj", folder / "f_5.obj", folder / "f_1.obj"}) ==
+        Names{"f_0.obj", "f_5.obj", "f_1.obj"});
+  CHECK(found({folder / "f_0.obj", folder / "f_0.obj"}) == Names{"f_0.obj", "f_0.obj"});
+  CHECK_THAT(failure({folder / "f_0.obj", folder / "f_1.obj", folder / "f_5.obj"}),
+             Catch::Contains("f_2.obj: frame 2 is missing"));
+  // A stray among them is told, but may be meant.
+  InputFiles files;
+  const std::vector<std::string> with_copy{folder / "f_0.obj", folder / "f_1 copy.obj",
+                                           folder / "f_1.obj"};
+  REQUIRE(find_input(with_copy, false, files).ok());
+  CHECK(files.meshes[1].filename() == "f_1 copy.obj");
+  REQUIRE(files.notes.size() == 1);
+  CHECK_THAT(files.notes[0], Catch::Contains("not named like") && Catch::Contains("order given"));
+}
+
+TEST_CASE("a stray beside a sequence is an error") {
+  const TempFolder folder;
+  for (const char* name : {"f_1.obj", "f_2.obj", "f_2 copy.obj", "f_5.obj"}) folder.write(name, "");
+  for (const std::string& input : {folder.path().string(), folder / "*.obj"}) {
+    CHECK_THAT(failure({input}),
+               Catch::Contains("f_2 copy.obj: not named like") && Catch::Contains("one by one"));
+  }
+}
+
+TEST_CASE("negative numbers count in folders and in patterns") {
+  const TempFolder folder;
+  for (const char* name : {"f_-2.obj", "f_-1.obj", "f_0.obj", "f_1.obj"}) folder.write(name, "");
+  const Names expected{"f_-2.obj", "f_-1.obj", "f_0.obj", "f_1.obj"};
+  CHECK(found({folder.path().string()}) == expected);
+  CHECK(found({folder / "f_%d.obj"}) == expected);
+  CHECK(found({folder / "*.obj"}) == expected);
+}
+
+TEST_CASE("names with the characters of patterns are found as they stand") {
+  const TempFolder folder;
+  for (const char* odd : {"a[1]", "b*", "c%d", "d?", "e%04d[x]"}) {
+    const std::string name = odd;
+    INFO(name);
+    folder.write(name + "/f_1.obj", "");
+    folder.write(name + "/f_2.obj", "");
+    folder.write(name + ".obj", "");
+    const Names both{"f_1.obj", "f_2.obj"};
+    CHECK(found({folder / name}) == both);
+    CHECK(found({folder / (name + "/*.obj")}) == both);
+    CHECK(found({folder / (name + "/f_%d.obj")}) == both);
+    CHECK(found({folder / (name + ".obj")}) == Names{name + ".obj"});
+  }
+  // What is no name is a pattern still.
+  CHECK(found({folder / "a[[]1]/*.obj"}) == Names{"f_1.obj", "f_2.obj"});
+}
+
+TEST_CASE("extensions count in any case") {
+  const TempFolder folder;
+  folder.write("m/walk.OBJ", "");
+  folder.write("m/walk.PC2", "");
+  folder.write("s.REEB", "");
+  CHECK(found({folder / "m/walk.PC2"}) == Names{"walk.OBJ", "walk.PC2"});
+  InputFiles files;
+  REQUIRE(find_input({folder / "s.REEB"}, false, files).ok());
+  CHECK(files.stream.filename() == "s.REEB");
 }
 
 TEST_CASE("a width in a printf pattern counts") {
@@ -136,6 +198,15 @@ TEST_CASE("printf patterns") {
   CHECK_FALSE(pattern.matches("out/f_007.obj"));
   CHECK_FALSE(pattern.matches("out/f_00007.obj"));
   CHECK_FALSE(pattern.matches("out/f_.obj"));
+  CHECK_FALSE(pattern.matches("out/f_-.obj"));
+  // As printf writes it.
+  CHECK(pattern.name(-7) == "out/f_-007.obj");
+  CHECK(pattern.matches("out/f_-007.obj"));
+  CHECK_FALSE(pattern.matches("out/f_-0007.obj"));
+  REQUIRE(NumberPattern::parse("%d/f_%d.obj", pattern));
+  CHECK(pattern.name(1) == "%d/f_1.obj");
+  REQUIRE(NumberPattern::parse("f_%d/m.obj", pattern));
+  CHECK(pattern.name(1) == "f_1/m.obj");
   CHECK_FALSE(NumberPattern::parse("plain.obj", pattern));
   CHECK_FALSE(NumberPattern::parse("%d_%d.obj", pattern));
   CHECK_FALSE(NumberPattern::parse("%s.obj", pattern));

@@ -6,36 +6,14 @@
 #include <cstring>
 #include <random>
 
+#include "tests/tools/io/read_mesh_text.h"
 #include "tests/tools/test_meshes.h"
 
 namespace reeb::tools {
 namespace {
 
-MeshFrame read_ok(const std::string& bytes, MeshFormat format,
-                  const MeshReference* reference = nullptr) {
-  MeshFrame out;
-  const Status status = read_mesh(bytes, format, reference, out);
-  INFO(status.message());
-  REQUIRE(status.ok());
-  return out;
-}
-
-std::string failure(const std::string& bytes, MeshFormat format) {
-  MeshFrame out;
-  const Status status = read_mesh(bytes, format, nullptr, out);
-  REQUIRE_FALSE(status.ok());
-  REQUIRE_FALSE(status.message().empty());
-  return status.message();
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
 using Contains = Catch::Matchers::StdString::ContainsMatcher;
 Contains contains(const std::string& text) { return Catch::Contains(text); }
-
-using Corners = std::vector<uint32_t>;
 
 }  // namespace
 
@@ -79,7 +57,16 @@ TEST_CASE("OBJ: everything around positions and faces is passed over") {
   CHECK(same_bits(frame.positions, {0, 0, 0, 1, 0, 0, 1, 1, 0, 5, -0.5f, 5, 7, 8, 9}));
   CHECK(frame.connectivity.face_sizes == Corners{3, 3, 4, 3});
   CHECK(frame.connectivity.corners == Corners{0, 1, 2, 0, 2, 3, 0, 1, 2, 3, 0, 1, 4});
-  CHECK(frame.dropped == "groups, texture coordinates, normals, materials");
+  CHECK(frame.unkept == std::vector<Unkept>{{"colours", 1},
+                                            {"texture coordinates", 1},
+                                            {"normals", 1},
+                                            {"materials", 1},
+                                            {"material libraries", 1},
+                                            {"groups", 1},
+                                            {"objects", 1},
+                                            {"smoothing groups", 1},
+                                            {"lines", 1},
+                                            {"points", 1}});
 }
 
 TEST_CASE("OBJ: a decimal gives the nearest float32, ties to even") {
@@ -93,12 +80,12 @@ TEST_CASE("OBJ: a decimal gives the nearest float32, ties to even") {
 }
 
 TEST_CASE("OBJ: bad files say what is wrong and where") {
-  CHECK_THAT(failure("", MeshFormat::kObj), contains("empty"));
-  CHECK_THAT(failure("# nothing\n", MeshFormat::kObj), contains("empty"));
+  CHECK_THAT(failure("", MeshFormat::kObj), contains("no vertices"));
+  CHECK_THAT(failure("# nothing\n", MeshFormat::kObj), contains("no vertices"));
   CHECK_THAT(failure("\x7f"
                      "ELF garbage",
                      MeshFormat::kObj),
-             contains("empty"));
+             contains("line 1: '?ELF' is not a statement of OBJ"));
   CHECK_THAT(failure("v 0 0 0\nv 1 2\n", MeshFormat::kObj), contains("line 2"));
   CHECK_THAT(failure("v 0 0 zero\n", MeshFormat::kObj), contains("line 1"));
   CHECK_THAT(failure("v 0 0 0\nf 0 1 1\n", MeshFormat::kObj), contains("line 2"));
@@ -184,7 +171,7 @@ TEST_CASE("PLY: ascii and both binary orders, any type, other elements and prope
     CHECK(same_bits(frame.positions, positions));
     CHECK(frame.connectivity.face_sizes == Corners{3, 4});
     CHECK(frame.connectivity.corners == Corners{0, 1, 2, 2, 1, 0, 2});
-    CHECK(frame.dropped == "view, red, tags, flag");
+    CHECK(frame.unkept == std::vector<Unkept>{{"camera", 1}, {"red", 3}, {"tags", 3}, {"flag", 2}});
   }
 }
 
@@ -220,16 +207,17 @@ TEST_CASE("PLY: bad headers and unsupported content") {
   CHECK_THAT(failure("solid", MeshFormat::kPly), contains("must begin with ply"));
   CHECK_THAT(failure("ply\nformat odd 1.0\nend_header\n", MeshFormat::kPly), contains("line 2"));
   CHECK_THAT(failure("ply\nproperty float x\nend_header\n", MeshFormat::kPly), contains("line 2"));
-  CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n0\n",
+  CHECK_THAT(failure("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty half h\n"
+                     "end_header\n0\n",
                      MeshFormat::kPly),
-             contains("type"));
+             contains("line 4: property 'h' has the unknown type 'half'"));
   CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
                      MeshFormat::kPly),
              contains("no x, y and z"));
   CHECK_THAT(failure("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
                      "property float z\nend_header\n",
                      MeshFormat::kPly),
-             contains("empty"));
+             contains("no vertices"));
   CHECK_THAT(failure("ply\nformat ascii 1.0\nelement tristrips 1\n"
                      "property list int int vertex_indices\nend_header\n1 0\n",
                      MeshFormat::kPly),
@@ -251,13 +239,13 @@ TEST_CASE("OFF: comments, colours and header variants") {
 TEST_CASE("OFF: bad files") {
   CHECK_THAT(failure("4OFF\n1 0 0\n1 2 3 4\n", MeshFormat::kOff), contains("OFF"));
   CHECK_THAT(failure("OFF BINARY\n", MeshFormat::kOff), contains("binary"));
-  CHECK_THAT(failure("OFF\n", MeshFormat::kOff), contains("counts"));
+  CHECK_THAT(failure("OFF\n", MeshFormat::kOff), contains("the count of vertices"));
   CHECK_THAT(failure("OFF\n3000000000 0 0\n0 0 0\n", MeshFormat::kOff), contains("truncated"));
   CHECK_THAT(failure("OFF\n1 3000000000 0\n0 0 0\n", MeshFormat::kOff), contains("truncated"));
   CHECK_THAT(failure("OFF\n2 0 0\n0 0 0\n1 x 0\n", MeshFormat::kOff), contains("line 4"));
   CHECK_THAT(failure("OFF\n1 1 0\n0 0 0\n3 0 0\n", MeshFormat::kOff), contains("line 4"));
   CHECK_THAT(failure("OFF\n1 1 0\n0 0 0\n3 0 0 1\n", MeshFormat::kOff), contains("vertex 2 of 1"));
-  CHECK_THAT(failure("OFF\n0 0 0\n", MeshFormat::kOff), contains("empty"));
+  CHECK_THAT(failure("OFF\n0 0 0\n", MeshFormat::kOff), contains("no vertices"));
 }
 
 TEST_CASE("STL: corners at equal positions are one vertex, in order of appearance") {
@@ -309,9 +297,9 @@ TEST_CASE("STL: bad files") {
   CHECK_THAT(failure("nothing", MeshFormat::kStl), contains("STL"));
   CHECK_THAT(failure("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", MeshFormat::kStl),
              contains("endsolid"));
-  CHECK_THAT(failure("solid a\nouter loop\nvertex 0 0 0\nendloop\nendsolid\n", MeshFormat::kStl),
+  CHECK_THAT(failure("solid a\nfacet\nouter loop\nvertex 0 0 0\nendloop\n", MeshFormat::kStl),
              contains("triangle"));
-  CHECK_THAT(failure("solid a\nendsolid a\n", MeshFormat::kStl), contains("empty"));
+  CHECK_THAT(failure("solid a\nendsolid a\n", MeshFormat::kStl), contains("no vertices"));
 }
 
 TEST_CASE("damaged bytes give an error or a sound mesh") {

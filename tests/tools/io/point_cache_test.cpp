@@ -101,6 +101,27 @@ TEST_CASE("uneven MDD times are reported") {
   CHECK(cache.notes.size() == 1);
 }
 
+TEST_CASE("what of a header is not used is told") {
+  const TempFolder folder;
+  std::string times = kPc2;
+  times.replace(20, 8, "\0\0\xc0\x7f\0\0\x80\xbf", 8);  // start NaN, -1 frames per sample
+  PointCache cache;
+  REQUIRE(read_point_cache(folder.write("a.pc2", times + "more"), cache).ok());
+  CHECK(cache.start_time == 0);
+  CHECK(cache.frames_per_sample == 1);
+  REQUIRE(cache.notes.size() == 3);
+  CHECK_THAT(cache.notes[0], Catch::Contains("a.pc2: the start frame is no number"));
+  CHECK_THAT(cache.notes[1], Catch::Contains("frames per sample are -1"));
+  CHECK_THAT(cache.notes[2], Catch::Contains("4 bytes behind the last frame"));
+
+  std::string still = kMdd;
+  still.replace(12, 4, still.substr(8, 4));
+  REQUIRE(read_point_cache(folder.write("a.mdd", still), cache).ok());
+  CHECK(cache.frame_rate == 0);
+  REQUIRE(cache.notes.size() == 1);
+  CHECK_THAT(cache.notes[0], Catch::Contains("do not increase"));
+}
+
 TEST_CASE("every cut of a cache is an error, and lying counts take no memory") {
   const TempFolder folder;
   for (size_t size = 0; size < kPc2.size(); ++size) failure(folder, "c.pc2", kPc2.substr(0, size));

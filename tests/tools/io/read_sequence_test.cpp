@@ -86,7 +86,7 @@ TEST_CASE("a bad frame is named by file and number") {
     return status.message();
   };
   CHECK_THAT(message("v 0 nan 0\n"), Catch::Contains("not a finite"));
-  CHECK_THAT(message(""), Catch::Contains("empty"));
+  CHECK_THAT(message(""), Catch::Contains("no vertices") && Catch::Contains("leave it out"));
   CHECK_THAT(message("v 0 0 0\nf 1 2 3\n"), Catch::Contains("uses vertex 2"));
   std::filesystem::remove(folder / "f_17.obj");
   CHECK_THAT(read(folder, sequence, report).message(),
@@ -104,6 +104,60 @@ TEST_CASE("what the codec does not keep is said once") {
   REQUIRE(read(folder, sequence, report).ok());
   REQUIRE(report.notes.size() == 1);
   CHECK_THAT(report.notes[0], Catch::Contains("texture coordinates"));
+}
+
+TEST_CASE("what further frames have that is not kept is said, too") {
+  const TempFolder folder;
+  folder.write("f1.obj", "v 0 0 0\nvt 0 0\nf 1/1 1/1 1/1\n");
+  folder.write("f2.obj", "v 0 0 1 1 0 0\nvt 0 0\nf 1/1 1/1 1/1\n");
+  folder.write("f3.obj", "v 0 0 1 1 0 0\nvt 0 0\nf 1/1 1/1 1/1\nl 1 1\n");
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read(folder, sequence, report).ok());
+  REQUIRE(report.notes.size() == 3);
+  CHECK_THAT(report.notes[1], Catch::Contains("f2.obj") && Catch::Contains("not: colours (1)"));
+  CHECK_THAT(report.notes[2], Catch::Contains("f3.obj") && Catch::Contains("not: lines (1)"));
+}
+
+TEST_CASE("bytes behind the end are told once for all files") {
+  const TempFolder folder;
+  const TestMesh mesh = plain_mesh();
+  const std::string bytes = write_mesh(mesh.connectivity, mesh.positions, MeshFormat::kPly);
+  for (int t = 1; t <= 12; ++t) folder.write(std::to_string(t) + ".ply", bytes + "more");
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read(folder, sequence, report).ok());
+  REQUIRE(report.notes.size() == 2);
+  CHECK_THAT(report.notes[0], Catch::Contains("1.ply: 4 bytes behind"));
+  CHECK_THAT(report.notes[1], Catch::Contains("11 further files"));
+}
+
+TEST_CASE("what binary32 does not hold is told and kept apart") {
+  const TempFolder folder;
+  folder.write("f1.obj", "v 0 0 0\nv 4 3 0\nf 1 1 2\n");
+  folder.write("f2.obj", "v 0 0 0\nv 16777217 3 0\nf 1 1 2\n");
+  folder.write("f3.obj", "v 0 0 0\nv 4 3 0\nv 1 1 1\nf 1 1 2\n");
+  folder.write("f4.obj", "v 0 0 0\nv 4 3 0\nv 16777216.5 1 1\nf 1 1 2\n");
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read(folder, sequence, report).ok());
+  CHECK(report.largest_remainder == 1);
+  const Remainders expected{{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0},
+                            {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 0, 0}};
+  CHECK(report.remainders == expected);
+  CHECK_THAT(report.notes.back(),
+             Catch::Contains("f2.obj: binary32 does not hold") && Catch::Contains("by up to 1 ("));
+}
+
+TEST_CASE("what the mesh beside a cache has and is not kept is said") {
+  const TempFolder folder;
+  folder.write("walk.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 1//1 1//1\n");
+  folder.write("walk.pc2", cache_header(CacheFormat::kPc2, 1, 1, 0, 0, 1) + std::string(12, '\0'));
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read(folder, sequence, report).ok());
+  REQUIRE(report.notes.size() == 1);
+  CHECK_THAT(report.notes[0], Catch::Contains("walk.obj") && Catch::Contains("normals (1)"));
 }
 
 TEST_CASE("a mesh and a cache") {
