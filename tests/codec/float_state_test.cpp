@@ -93,8 +93,9 @@ TEST_CASE("the host's floating point changes no byte and no bit", "[float_state]
     };
     const auto decoded = [](const std::vector<uint8_t>& bytes) {
       Sequence out;
-      return decode_sequence(bytes, {.threads = 2}, out).ok() ? out.shots[0].positions
-                                                              : std::vector<float>();
+      DecodeOptions two;
+      two.threads = 2;
+      return decode_sequence(bytes, two, out).ok() ? out.shots[0].positions : std::vector<float>();
     };
     const std::vector<uint8_t> bytes = encoded();
     const std::vector<float> positions = decoded(bytes);
