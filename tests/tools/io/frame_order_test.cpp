@@ -75,6 +75,15 @@ TEST_CASE("a number that skips is named") {
   CHECK(order_of({"t0.0333", "t0.0667", "t0.1"}).gap.empty());
 }
 
+TEST_CASE("where a number skips, zeros show whether the numbers are decimals") {
+  const FrameOrder times = order_of({"t0.002", "t0.0005", "t0.001"});
+  CHECK(times.files[0] == "t0.0005");
+  CHECK_THAT(times.gap, Contains("a frame is missing between t0.001 and t0.002"));
+  const FrameOrder takes = order_of({"take1.10", "take1.11", "take1.8"});
+  CHECK(takes.files[0] == "take1.8");
+  CHECK_THAT(takes.gap, Contains("take1.9: frame 9 is missing"));
+}
+
 TEST_CASE("names that are not those of one sequence leave a doubt") {
   CHECK_THAT(order_of({"f_1", "f_2", "f_2 copy", "f_5"}).doubt,
              Contains("f_2 copy: not named like f_1 and 2 more"));
