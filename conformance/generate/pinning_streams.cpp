@@ -74,6 +74,36 @@ Shape fans(std::initializer_list<uint32_t> spokes) {
   return s;
 }
 
+/// Triangles that share no vertex, side by side.
+Shape separate(uint32_t triangles) {
+  Shape s{.name = "separate triangles", .connectivity = {}, .positions = {}};
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const auto x = static_cast<float>(i % 8), y = static_cast<float>(i / 8);
+    const uint32_t v = s.add_vertex(x, y, 0);
+    s.add_vertex(x + static_cast<float>(i % 3), y, 1);
+    s.add_vertex(x, y + 1, static_cast<float>(i % 2));
+    s.add_face({v, v + 1, v + 2});
+  }
+  return s;
+}
+
+/// Fins at places that differ in one coordinate alone.
+Shape fins_at_four_places() {
+  Shape s{.name = "fins", .connectivity = {}, .positions = {}};
+  const Shape one = fins(5);
+  for (uint32_t place = 0; place < 4; ++place) {
+    const uint32_t first = s.connectivity.vertex_count;
+    for (size_t i = 0; i < one.positions.size(); i += 3) {
+      const auto moved = [&](uint32_t a) {
+        return one.positions[i + a] + (place == a + 1 ? 2 : 0);
+      };
+      s.add_vertex(moved(0), moved(1), moved(2));
+    }
+    for (uint32_t i = 0; i < 5; ++i) s.add_face({first, first + 1, first + 2 + i});
+  }
+  return s;
+}
+
 BuiltMesh keeping_faces(const Shape& shape, bool plain, uint32_t bits = 9) {
   return build_mesh(shape.connectivity, on_grid(shape, bits), {.face_order = true, .plain = plain});
 }
@@ -95,6 +125,9 @@ void add_meshes(Maker& m) {
            doubled(torus(7, 5)), 4);
   add_both(m, "fans", "fast_fans", "Closed fans of 6 to 18 triangles.",
            fans({6, 7, 8, 9, 10, 15, 16, 17, 18}), 3);
+  add_both(m, "separate", "fast_separate", "Triangles that share no vertex.", separate(40), 2);
+  add_both(m, "four_fins", "fast_four_fins",
+           "Split points at places that differ in one coordinate.", fins_at_four_places(), 2);
   m.add("hub_256", "A vertex with as many triangles as collapses look at.",
         build_file(mesh_of(hub(256)), plain_group(1, 2)));
   m.add("hub_257", "The same with one triangle more.",
