@@ -13,6 +13,13 @@ std::string quoted(std::string_view word) {
   return "'" + out + (word.size() > 40 ? "...'" : "'");
 }
 
+/// What may help where `word` makes no sense.
+const char* remedy(std::string_view word) {
+  if (word.find(',') != word.npos) return "; numbers need a decimal point, export the file again";
+  if (word.find(".#") != word.npos) return ", for it is not finite; repair the frame or leave it out";
+  return "; the file is damaged or another format, export it again";
+}
+
 }  // namespace
 
 // CR CR LF is one end, too: what comes of ends that were translated twice.
@@ -67,7 +74,7 @@ Status TextCursor::unexpected(const std::string& wanted) const {
   const std::string_view word = here.word();
   const std::string found = word.empty() ? "the line ends where there should be " + wanted
                                          : quoted(word) + " is not " + wanted;
-  return error(found + "; the file is damaged or another format, export it again");
+  return error(found + remedy(word));
 }
 
 Status open_text(std::string_view bytes, std::string_view& text) {

@@ -90,6 +90,12 @@ TEST_CASE("a coordinate that is no number is refused where it stands") {
   }
 }
 
+TEST_CASE("the remedy fits the number") {
+  CHECK_THAT(failure("v 0 0 0,5\n", MeshFormat::kObj), Contains("need a decimal point"));
+  CHECK_THAT(failure("v 0 0 1.#INF\n", MeshFormat::kObj), Contains("not finite; repair the frame"));
+  CHECK_THAT(failure("v 0 0 zero\n", MeshFormat::kObj), Contains("export it again"));
+}
+
 TEST_CASE("what follows the last element is refused or told") {
   CHECK_THAT(failure(kOff + "3 0 1 2\n", MeshFormat::kOff), Contains("line 7: more follows"));
   CHECK_THAT(failure(kPly + "3 0 1 2\n", MeshFormat::kPly), Contains("line 14: '3' is not"));
