@@ -16,7 +16,8 @@ std::string quoted(std::string_view word) {
 /// What may help where `word` makes no sense.
 const char* remedy(std::string_view word) {
   if (word.find(',') != word.npos) return "; numbers need a decimal point, export the file again";
-  if (word.find(".#") != word.npos) return ", for it is not finite; repair the frame or leave it out";
+  if (word.find(".#") != word.npos)
+    return ", for it is not finite; repair the frame or leave it out";
   return "; the file is damaged or another format, export it again";
 }
 
