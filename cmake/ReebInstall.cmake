@@ -64,10 +64,12 @@ if(REEB_BUILD_ENCODER)
       COMPONENT encoder)
   endforeach()
   reeb_install_component(tools reeb)
-  install(
-    FILES ${PROJECT_BINARY_DIR}/tools/reeb.1
-    DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
-    COMPONENT tools)
+  if(TARGET reeb_man_page)
+    install(
+      FILES ${PROJECT_BINARY_DIR}/tools/reeb.1
+      DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+      COMPONENT tools)
+  endif()
   foreach(component encoder tools)
     reeb_install_package_files(${component})
   endforeach()

@@ -34,3 +34,16 @@ function(reeb_library name)
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/reeb>)
   target_compile_features(${name} PUBLIC cxx_std_20)
 endfunction()
+
+# reeb_together(TARGET [FILES...]): compiles these files, or all of a target, as one translation unit, since what
+# they include and instantiate alike takes most of their time.
+option(REEB_TOGETHER "Compile files that include much alike as one translation unit" ON)
+function(reeb_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REEB_TOGETHER})
+  if(ARGN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP together)
+  else()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+  endif()
+endfunction()

@@ -12,11 +12,6 @@
 namespace reeb::segmentation {
 namespace {
 
-bool finite_at(std::span<const float> positions, uint32_t v) {
-  return std::isfinite(positions[3 * v]) && std::isfinite(positions[3 * v + 1]) &&
-         std::isfinite(positions[3 * v + 2]);
-}
-
 Point point_at(std::span<const float> positions, uint32_t v) {
   return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
 }

@@ -12,11 +12,6 @@
 namespace reeb::segmentation {
 namespace {
 
-bool finite_at(std::span<const float> positions, uint32_t v) {
-  return std::isfinite(positions[3 * v]) && std::isfinite(positions[3 * v + 1]) &&
-         std::isfinite(positions[3 * v + 2]);
-}
-
 // Vertices on an edge of a single triangle: only there can a seam have cut the surface.
 std::vector<bool> boundary_vertices(std::span<const Triple> triangles, size_t vertices) {
   std::vector<std::pair<uint32_t, uint32_t>> sides;
@@ -157,6 +152,11 @@ Rows invert(std::span<const Group> groups, uint32_t rows) {
 }
 
 }  // namespace
+
+bool finite_at(std::span<const float> positions, uint32_t v) {
+  return std::isfinite(positions[3 * v]) && std::isfinite(positions[3 * v + 1]) &&
+         std::isfinite(positions[3 * v + 2]);
+}
 
 Rows group_by(std::span<const uint32_t> owner, uint32_t rows) {
   Rows result;

@@ -48,6 +48,8 @@ struct Surface {
   }
 };
 
+bool finite_at(std::span<const float> positions, uint32_t v);
+
 /// Fills edges and adjacency of `surface` from its points and triangles.
 void connect(Surface& surface);
 

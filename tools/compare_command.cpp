@@ -10,6 +10,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace compare_command {
 namespace {
 
 struct Options {
@@ -149,8 +150,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace compare_command
 
 void add_compare_command(CLI::App& app, int& exit_code) {
+  using namespace compare_command;
   auto* command = app.add_subcommand("compare", "Measure how far one sequence is from another");
   auto o = std::make_shared<Options>();
   const std::string sequence =

@@ -9,6 +9,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace decode_command {
 namespace {
 
 /// Frames from 1, as typed; 0 = an end left open.
@@ -118,8 +119,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace decode_command
 
 void add_decode_command(CLI::App& app, int& exit_code) {
+  using namespace decode_command;
   auto* command =
       app.add_subcommand("decode", "Write frames of a .reeb file as meshes or point cache");
   auto o = std::make_shared<Options>();

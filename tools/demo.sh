@@ -3,10 +3,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-.ci/setup
-cmake -S . -B build -G Ninja >/dev/null
-cmake --build build --target reeb
-reeb=build/tools/reeb
+.ci/setup demo
+cmake -S . -B build-demo -G Ninja -DREEB_BUILD_TESTS=OFF -DREEB_BUILD_BINDINGS=OFF >/dev/null
+cmake --build build-demo --target reeb
+reeb=build-demo/tools/reeb
 
 rm -rf demo
 "$reeb" sample creature -o demo/frames/frame_%04d.obj

@@ -12,6 +12,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace encode_command {
 namespace {
 
 Profile profile_of(const std::string& name) {
@@ -279,8 +280,10 @@ void add_coding_options(CLI::App& command, Options& o) {
 }
 
 }  // namespace
+}  // namespace encode_command
 
 void add_encode_command(CLI::App& app, int& exit_code) {
+  using namespace encode_command;
   auto* command = app.add_subcommand("encode", "Compress a sequence into a .reeb file");
   auto o = std::make_shared<Options>();
   command

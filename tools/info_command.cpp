@@ -9,6 +9,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace info_command {
 namespace {
 
 struct Options {
@@ -124,8 +125,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace info_command
 
 void add_info_command(CLI::App& app, int& exit_code) {
+  using namespace info_command;
   auto* command = app.add_subcommand("info", "Show what a .reeb file holds");
   auto o = std::make_shared<Options>();
   command->add_option("INPUT", o->input, "The .reeb file; - = standard input")

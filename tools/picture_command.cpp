@@ -9,6 +9,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace picture_command {
 namespace {
 
 constexpr uint32_t kDefaultColumns = 4;
@@ -79,8 +80,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace picture_command
 
 void add_picture_command(CLI::App& app, int& exit_code) {
+  using namespace picture_command;
   auto* command = app.add_subcommand("picture", "Draw frames side by side into a PNG");
   auto o = std::make_shared<Options>();
   const std::string sequence =

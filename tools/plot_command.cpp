@@ -7,6 +7,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace plot_command {
 namespace {
 
 constexpr const char* kSeries[] = {"sequence", "configuration", "codec"};
@@ -55,8 +56,10 @@ int run(Options& o) {
 }
 
 }  // namespace
+}  // namespace plot_command
 
 void add_plot_command(CLI::App& app, int& exit_code) {
+  using namespace plot_command;
   auto* command =
       app.add_subcommand("plot", "Draw rate-distortion curves from a table into an SVG");
   auto o = std::make_shared<Options>();

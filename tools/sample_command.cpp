@@ -7,6 +7,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace sample_command {
 namespace {
 
 struct Options {
@@ -38,8 +39,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace sample_command
 
 void add_sample_command(CLI::App& app, int& exit_code) {
+  using namespace sample_command;
   auto* command = app.add_subcommand("sample", "Make an animated sequence from nothing");
   auto o = std::make_shared<Options>();
   std::string names = "One of:";

@@ -16,6 +16,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace segment_command {
 namespace {
 
 constexpr uint32_t kDefaultColumns = 4;
@@ -183,8 +184,10 @@ void add_picture_options(CLI::App& command, Options& o) {
 }
 
 }  // namespace
+}  // namespace segment_command
 
 void add_segment_command(CLI::App& app, int& exit_code) {
+  using namespace segment_command;
   auto* command =
       app.add_subcommand("segment", "Show the regions and the Reeb graph of a sequence");
   auto o = std::make_shared<Options>();

@@ -5,8 +5,7 @@
 namespace reeb {
 
 namespace {
-constexpr Eigen::Index kRowBlock = 512;
-constexpr double kRidge = 0.5;  ///< in units of q^2
+constexpr double kBasisRidge = 0.5;  ///< in units of q^2
 constexpr double kRelativeRidge =
     1e-9;  ///< of the mean diagonal, against singular normal equations
 }  // namespace
@@ -36,7 +35,7 @@ BasisRefit::BasisRefit(const GroupSignal& signal, const Eigen::MatrixXd& transfo
   }
   if (k == 0) return;
   gram_ = gram_.selfadjointView<Eigen::Lower>();
-  const double ridge = kRidge + kRelativeRidge * gram_.trace() / static_cast<double>(k);
+  const double ridge = kBasisRidge + kRelativeRidge * gram_.trace() / static_cast<double>(k);
   const Eigen::MatrixXd normal = gram_ + ridge * Eigen::MatrixXd::Identity(k, k);
   const Eigen::MatrixXd right = projection_ / q + ridge * transform.leftCols(k).transpose();
   basis_ = normal.llt().solve(right).transpose();

@@ -10,6 +10,8 @@ namespace reeb {
 
 using TrajectoryMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+inline constexpr Eigen::Index kRowBlock = 512;  ///< rows turned to binary64 at once
+
 struct GroupSignal {
   uint32_t frames = 0;
   TrajectoryMatrix

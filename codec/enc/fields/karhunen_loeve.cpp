@@ -6,7 +6,6 @@ namespace reeb {
 
 namespace {
 
-constexpr Eigen::Index kRowBlock = 512;  ///< rows turned to binary64 at once
 constexpr Eigen::Index kComponentBlock =
     32;                             ///< components whose coefficients are computed at once
 constexpr double kNothing = 1e-14;  ///< of the largest variance: rounding noise of the input
