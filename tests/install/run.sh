@@ -34,6 +34,22 @@ expect "Compress" "$prefix/bin/reeb" --help
 remembered=$(grep -rlF -e "$source" -e "$work/first" "$prefix" --include='*.cmake' --include='*.pc' --include='*.h' || true)
 [[ -z $remembered ]] || { echo "names this machine's folders: $remembered"; exit 1; }
 
+echo "== each header compiles alone"
+alone() {  # alone STANDARD HEADER INCLUDE_FOLDER, by gcc and, where it is there, by clang
+  local compiler
+  for compiler in gcc clang; do
+    command -v $compiler >/dev/null || continue
+    $compiler -x "${1%%[0-9]*}" -std="$1" -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Werror \
+      -fsyntax-only -I"$3" - <<<"#include <$2>" || { echo "$2 does not compile alone as $1"; exit 1; }
+  done
+}
+alone c99 reeb.h "$prefix/include"
+alone c++11 reeb.h "$prefix/include"
+alone c++17 reeb.hpp "$prefix/include"
+while read -r header; do
+  alone c++20 "$header" "$prefix/include/reeb"
+done < <(cd "$prefix/include/reeb" && find . -name "*.h" -printf "%P\n")
+
 echo "== find_package: examples and an encoder"
 for project in "$source/examples" "$source/tests/install/outside"; do
   name=$(basename "$project")
