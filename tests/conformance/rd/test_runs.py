@@ -208,7 +208,7 @@ class ConfigurationsTest(unittest.TestCase):
         self.assertFalse(set(names) & {c.group for c in configurations.ALL})
 
     def test_coding_tools_are_those_of_the_codec(self):
-        header = os.path.join(CONFORMANCE, "..", "codec", "common", "coding_tools.h")
+        header = os.path.join(CONFORMANCE, "..", "codec", "common", "base", "coding_tools.h")
         with open(header, encoding="utf-8") as file:
             names = re.findall(r'constexpr char k\w+\[\] = "([a-z-]+)"', file.read())
         self.assertEqual(sorted(names), sorted(configurations.TOOLS))
