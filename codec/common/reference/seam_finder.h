@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "codec/common/base/item_lists.h"
 #include "codec/common/mesh/half_edge_fans.h"
 
 namespace reeb {
@@ -14,7 +15,7 @@ namespace reeb {
 /// coincides with another vertex, the neighbours of that one along its boundary are candidates.
 class SeamFinder {
  public:
-  /// `twins` as of pair_half_edges. The spans must outlive the finder.
+  /// `twins` as of pair_half_edges.
   SeamFinder(std::span<const uint32_t> triangles, std::span<const uint32_t> twins,
              const HalfEdgeFans& fans, uint32_t point_count);
 
@@ -26,17 +27,14 @@ class SeamFinder {
 
  private:
   static constexpr size_t kMaxFound = 2;
-  static constexpr size_t kMaxNeighbours = 16;  ///< more are not looked for, against hostile fans
-  /// Ends of half-edges without twins around `point`.
-  void boundary_neighbours(uint32_t point, std::vector<uint32_t>& out) const;
 
-  std::span<const uint32_t> triangles_, twins_;
-  const HalfEdgeFans& fans_;
-  std::vector<uint8_t> on_boundary_;  // ends of half-edges without twins
+  /// Ends of half-edges without twins around each point. Found once: a point of many triangles may
+  /// be asked for by as many others.
+  ItemLists<uint32_t> near_;
   std::vector<uint8_t> coded_;
-  std::vector<uint32_t> partner_;                     // latest found at the same place
-  std::unordered_map<uint64_t, uint32_t> latest_at_;  // boundary points by place
-  std::vector<uint32_t> near_, far_, found_;          // scratch
+  std::vector<uint32_t> partner_;           ///< latest found at the same place
+  std::map<uint64_t, uint32_t> latest_at_;  ///< boundary points by place, which files choose
+  std::vector<uint32_t> found_;             ///< scratch
 };
 
 }  // namespace reeb
