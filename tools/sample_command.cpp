@@ -47,6 +47,7 @@ void add_sample_command(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<Options>();
   std::string names = "One of:";
   for (const SampleInfo& s : samples()) names += std::string("\n") + s.name + ": " + s.description;
+  names += "\n" + figure_description();
   command->add_option("NAME", o->name, names)->required()->type_name("");
   command
       ->add_option(

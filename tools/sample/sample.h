@@ -18,11 +18,14 @@ struct SampleInfo {
   const char* description;
 };
 
-/// What `make_sample` knows.
+/// What `make_sample` knows beside figures.
 const std::vector<SampleInfo>& samples();
 
-/// Frames 1 .. `frame_count` (>= 1; 0 = the default) of the sample called `name`, 25 frames per
-/// second.
+/// "KIND-N: ...": the names of figures (see figures.h), for people.
+std::string figure_description();
+
+/// Frames 1 .. `frame_count` (>= 1; 0 = the default) of the sample or figure called `name`, 25
+/// frames per second.
 Status make_sample(const std::string& name, uint32_t frame_count, Sequence& out);
 
 // The samples one by one; frame_count >= 1.

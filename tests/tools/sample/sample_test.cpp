@@ -8,6 +8,8 @@
 #include <numeric>
 #include <set>
 
+#include "tools/sample/figures.h"
+#include "tools/sample/solid.h"
 #include "tools/vec3.h"
 
 namespace reeb::tools {
@@ -169,6 +171,42 @@ TEST_CASE(
   }
   Sequence none;
   CHECK_FALSE(make_sample("unicorn", 3, none).ok());
+}
+
+TEST_CASE("a solid is its parts, less what is carved") {
+  Solid solid(1e-3);
+  solid.add_cone({0, 0, 0}, {2, 0, 0}, 0.5, 0.5);
+  CHECK(solid.value({1, 2, 0}) == Approx(1.5));
+  CHECK(solid.value({3, 0, 0}) == Approx(0.5));
+  CHECK(solid.value({1, 0, 0}) == Approx(-0.5));
+  solid.carve_cone({1, 0, -9}, {1, 0, 9}, 0.2, 0.2);
+  CHECK(solid.value({1, 0, 0}) == Approx(0.2));
+  Solid box(1e-3);
+  box.add_box(rotation(2, 0.25, {}), {2, 1, 1}, 0.1);  // a quarter turn: 2 along y now
+  CHECK(box.value({0, 3, 0}) == Approx(1));
+  CHECK(box.value({3, 0, 0}) == Approx(2));
+}
+
+TEST_CASE("figures are closed surfaces, alike in kind and not in shape") {
+  CHECK(figure_kinds().size() >= 20);
+  for (const std::string kind : {"human", "glasses", "cup"}) {
+    Sequence one, again, other;
+    REQUIRE(make_sample(kind + "-1", 2, one).ok());
+    REQUIRE(make_sample(kind + "-1", 1, again).ok());
+    REQUIRE(make_sample(kind + "-2", 1, other).ok());
+    REQUIRE(one.shots.size() == 2);
+    CHECK(one.shots[0].positions == again.shots[0].positions);
+    CHECK(one.shots[0].positions != other.shots[0].positions);
+    const Topology t = topology(one.shots[0].connectivity);
+    CHECK(t.repeated_edges < t.edges / 100);  // where parts touch
+    CHECK(t.boundary_edges == 0);
+    CHECK(t.components == 1);
+    CHECK(one.shots[0].connectivity.vertex_count > 4000);
+    CHECK(one.shots[0].connectivity.vertex_count < 6000);
+  }
+  Sequence none;
+  for (const char* name : {"human", "human-0", "human-x", "nobody-1", "human-1x", "-1"})
+    CHECK_FALSE(make_sample(name, 1, none).ok());
 }
 
 }  // namespace reeb::tools
