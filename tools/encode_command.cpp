@@ -5,6 +5,7 @@
 
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
+#include "tools/archive/stored_signature.h"
 #include "tools/command.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
@@ -20,6 +21,8 @@ Profile profile_of(const std::string& name) {
   return name == "thesis" ? Profile::kThesis : Profile::kMain;
 }
 
+constexpr uint32_t kStoredSignatures = 3;  // of a sequence, as reeb index has them
+
 struct Options {
   std::vector<std::string> inputs;
   std::string output;
@@ -31,6 +34,7 @@ struct Options {
   bool overwrite = false;
   bool json = false;
   bool allow_gaps = false;
+  bool signature = false;
   std::optional<double> frame_rate;
   std::optional<double> start_time;
   unsigned threads = 0;
@@ -136,6 +140,15 @@ void report(const Options& o, const Sequence& sequence, const ReadReport& read,
   std::cout << json.dump(2) << "\n";
 }
 
+void keep_signature(Sequence& sequence, Console& console) {
+  std::string complaint;
+  const std::vector<SignedFrame> frames = sign_frames(sequence, kStoredSignatures, complaint);
+  if (frames.empty())
+    console.say(complaint + "; no signature is kept");
+  else
+    sequence.metadata[kSignatureKey] = stored_signatures(frames);
+}
+
 int run(Options& o) {
   Console console(o.console);
   if (o.json && o.output == "-") {
@@ -164,6 +177,7 @@ int run(Options& o) {
   console.detail(counted(sequence.frame_count(), "frame") + " of " +
                  counted(sequence.shots[0].connectivity.vertex_count, "vertex") + " read");
 
+  if (o.signature) keep_signature(sequence, console);
   choose_target(o, sequence, o.encoder);
   if (status = allow_for_rounding(read, o.encoder); !status.ok()) return fail(console, status);
   o.encoder.threads = o.threads;
@@ -308,6 +322,9 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   command->add_option("--start", o->start_time, "Time of the first frame, in frames")
       ->type_name("T")
       ->group("Time");
+  command->add_flag("--signature", o->signature,
+                    "Keep what the shape is recognised by, some 8 kB, so that reeb index does not "
+                    "decode the file");
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });

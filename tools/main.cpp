@@ -1,4 +1,5 @@
 // The `reeb` command.
+#include "tools/archive_command.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/segment_command.h"
@@ -23,6 +24,8 @@ int main(int argc, char** argv) {
   add_picture_command(app, exit_code);
   add_plot_command(app, exit_code);
   add_segment_command(app, exit_code);
+  add_index_command(app, exit_code);
+  add_search_command(app, exit_code);
 
   try {
     app.parse(argc, argv);

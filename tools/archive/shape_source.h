@@ -1,0 +1,28 @@
+// The shapes in the files that a user names.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/status.h"
+#include "codec/common/base/sequence.h"
+
+namespace reeb::tools {
+
+/// Files of `inputs` that hold shapes, sorted, each once, with absolute paths: mesh files, `.reeb`
+/// streams and point caches with a mesh of the same name beside them, which is then no shape of its
+/// own. Folders are looked through with all below them.
+Status find_shape_files(const std::vector<std::string>& inputs,
+                        std::vector<std::filesystem::path>& out);
+
+/// A frame as plain arrays.
+struct ShapeFrame {
+  std::span<const float> positions;
+  std::vector<uint32_t> triangles;
+};
+ShapeFrame shape_frame(const Sequence& sequence, uint32_t frame);
+
+}  // namespace reeb::tools
