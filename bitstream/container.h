@@ -17,9 +17,27 @@
 
 namespace reeb {
 
-/// What follows the header of a group, in this order.
+/// What follows the header of a group; a profile has none but its own.
 struct GroupSections {
-  std::span<const uint8_t> motion, coefficients, basis, corrections;
+  std::span<const uint8_t> motion{}, coefficients{}, basis{}, corrections{};
+  std::span<const uint8_t> differences{}, raw{};  ///< of a lossless group
+};
+
+/// A section of groups: what it is called, its length in the header, its place.
+struct GroupSection {
+  const char* name;
+  uint64_t GroupHeader::*bytes;
+  std::span<const uint8_t> GroupSections::*data;
+};
+
+/// In the order of the file.
+inline constexpr GroupSection kGroupSections[] = {
+    {"motion", &GroupHeader::motion_bytes, &GroupSections::motion},
+    {"coefficients", &GroupHeader::coefficient_bytes, &GroupSections::coefficients},
+    {"basis", &GroupHeader::basis_bytes, &GroupSections::basis},
+    {"corrections", &GroupHeader::correction_bytes, &GroupSections::corrections},
+    {"differences", &GroupHeader::difference_bytes, &GroupSections::differences},
+    {"raw bits", &GroupHeader::raw_bytes, &GroupSections::raw},
 };
 
 /// Appends a file to a byte vector, chunk by chunk: `begin`, optionally `metadata`, for each shot

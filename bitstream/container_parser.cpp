@@ -37,7 +37,9 @@ bool read_whole_payload(const ChunkType& type) {
 }
 
 uint64_t section_bytes(const GroupHeader& h) {
-  return h.motion_bytes + h.coefficient_bytes + h.basis_bytes + h.correction_bytes;
+  uint64_t sum = 0;
+  for (const GroupSection& s : kGroupSections) sum += h.*s.bytes;
+  return sum;
 }
 
 }  // namespace
@@ -360,10 +362,9 @@ Status ContainerParser::take_group(const Chunk& chunk) {
   if (Status s = spend(2 * (sizeof(GroupChunk) + sizeof(SeekEntry))); !s.ok()) return s;
   out_.groups.push_back(g);
   note_chunk(chunk, h.frame_count);
-  count("motion", h.motion_bytes);
-  count("coefficients", h.coefficient_bytes);
-  count("basis", h.basis_bytes);
-  count("corrections", h.correction_bytes);
+  for (const GroupSection& s : kGroupSections) {
+    if (h.*s.bytes > 0) count(s.name, h.*s.bytes);
+  }
   count("group headers", chunk.size - section_bytes(h));
   return {};
 }

@@ -19,10 +19,7 @@ Status read_payload(std::span<const uint8_t> payload, ReferenceChunk& r) {
 Status read_payload(std::span<const uint8_t> payload, GroupChunk& g) {
   ByteReader in(payload);
   if (Status s = read_header(in, "GRUP", g.header); !s.ok()) return s;
-  g.motion = in.take(g.header.motion_bytes);
-  g.coefficients = in.take(g.header.coefficient_bytes);
-  g.basis = in.take(g.header.basis_bytes);
-  g.corrections = in.take(g.header.correction_bytes);
+  for (const GroupSection& s : kGroupSections) g.*s.data = in.take(g.header.*s.bytes);
   return in.ok() && in.remaining() == 0 ? Status()
                                         : Status::corrupt("GRUP: sections do not fill the chunk");
 }

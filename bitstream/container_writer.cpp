@@ -38,16 +38,15 @@ Status ContainerWriter::reference(const ReferenceHeader& header, std::span<const
 
 Status ContainerWriter::group(const GroupHeader& header, const GroupSections& sections) {
   GroupHeader sized = header;
-  sized.motion_bytes = sections.motion.size();
-  sized.coefficient_bytes = sections.coefficients.size();
-  sized.basis_bytes = sections.basis.size();
-  sized.correction_bytes = sections.corrections.size();
+  std::array<std::span<const uint8_t>, std::size(kGroupSections)> parts;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = sections.*kGroupSections[i].data;
+    sized.*kGroupSections[i].bytes = parts[i].size();
+  }
   std::vector<uint8_t> front;
   if (Status s = write_header(sized, "GRUP", front); !s.ok()) return s;
   const uint64_t start = offset();
-  append_chunk(
-      out_, kGroupChunk, front,
-      std::array{sections.motion, sections.coefficients, sections.basis, sections.corrections});
+  append_chunk(out_, kGroupChunk, front, parts);
   note_chunk(start, header.frame_count);
   return {};
 }

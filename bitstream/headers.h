@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bitstream/profile.h"
+
 namespace reeb {
 
 inline constexpr uint8_t kFormatVersion = 1;
@@ -89,27 +91,21 @@ void describe(V& v, MeshHeader& h) {
   }
 }
 
-enum class Profile : uint8_t {
-  kMain = 0,      ///< prediction weights learned while decoding
-  kFast = 1,      ///< prediction weights from the reference and from the first components
-  kThesis = 2,    ///< no temporal transform: residual of the affine motion per frame and coordinate
-  kLossless = 3,  ///< every bit of every position: frames one after another
-};
-
 /// Front of chunk `GRUP`; the sections follow in this order and fill the rest.
 struct GroupHeader {
-  static constexpr uint8_t kContinues = 1;  ///< starts from what the group before has learned
-  static constexpr uint8_t kQuick = 4;      ///< lossless: the method that decodes quicker
-  static constexpr uint8_t kCorrected = 2;  ///< single coordinates are corrected
-  static constexpr uint8_t kWeakPrior = 8;  ///< main profile: weights may go far from what
-                                            ///< distances tell
+  static constexpr uint8_t kContinues = 1;      ///< starts from what the group before has learned
+  static constexpr uint8_t kQuick = 4;          ///< lossless: the method that decodes quicker
+  static constexpr uint8_t kCorrected = 2;      ///< single coordinates are corrected
+  static constexpr uint8_t kWeakPrior = 8;      ///< main profile: weights may go far from what
+                                                ///< distances tell
   static constexpr uint8_t kWary = kWeakPrior;  ///< fast profile: rows that were predicted badly
                                                 ///< change their weights the less
   uint32_t first_frame = 0;                     ///< in the sequence
   uint32_t frame_count = 1;
   uint32_t shot = 0;
   Profile profile = Profile::kMain;
-  uint32_t component_count = 0;    ///< temporal components; lossless: frames that are not copies
+  uint32_t component_count = 0;    ///< terms that positions are the sum of; not in lossless
+  uint32_t stored_count = 0;       ///< lossless: frames that are not copies
   float quantization_step = 1;     ///< world units
   float axis_step[3] = {1, 1, 1};  ///< thesis profile: of each coordinate, world units
   uint32_t region_count = 0;       ///< regions of the affine motion model; 0 where it is not used
@@ -117,6 +113,8 @@ struct GroupHeader {
   uint64_t motion_bytes = 0;
   uint64_t coefficient_bytes = 0;
   uint64_t basis_bytes = 0;
+  uint64_t difference_bytes = 0;  ///< lossless: what is modelled
+  uint64_t raw_bytes = 0;         ///< lossless: bits of which nothing is known
   double correction_step = 1;     ///< where corrected: world units
   uint64_t correction_count = 0;  ///< where corrected: coordinates that are
   uint64_t correction_bytes = 0;
@@ -126,18 +124,21 @@ struct GroupHeader {
   bool operator==(const GroupHeader&) const = default;
 };
 
+/// Of a lossless group, from stored_count on.
 template <class V>
-void describe(V& v, GroupHeader& h) {
-  v.uv("first_frame", h.first_frame, 0, kMaxUint32);
-  v.uv("frame_count", h.frame_count, 1, kMaxGroupFrames);
-  v.uv("shot", h.shot, 0, kMaxUint32);
-  v.u8("profile", h.profile, 0, 3);
+void describe_lossless(V& v, GroupHeader& h) {
+  v.uv("stored_count", h.stored_count, 0, 3 * uint64_t{kMaxGroupFrames});
+  v.flags("flags", h.flags, GroupHeader::kQuick);
+  v.uv("difference_bytes", h.difference_bytes, 0, kMaxUint32);
+  v.uv("raw_bytes", h.raw_bytes, 0, kMaxUint32);
+}
+
+/// Of a group with components, from component_count on.
+template <class V>
+void describe_components(V& v, GroupHeader& h) {
   v.uv("component_count", h.component_count, 0, 3 * uint64_t{kMaxGroupFrames});
-  const bool lossless = h.profile == Profile::kLossless;
-  if (!lossless) {
-    v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
-          std::numeric_limits<float>::max());
-  }
+  v.f32("quantization_step", h.quantization_step, std::numeric_limits<float>::denorm_min(),
+        std::numeric_limits<float>::max());
   if (h.profile == Profile::kThesis) {
     constexpr double kMin = std::numeric_limits<float>::denorm_min();
     constexpr double kMax = std::numeric_limits<float>::max();
@@ -145,11 +146,10 @@ void describe(V& v, GroupHeader& h) {
     v.f32("axis_step_y", h.axis_step[1], kMin, kMax);
     v.f32("axis_step_z", h.axis_step[2], kMin, kMax);
   }
-  if (!lossless) v.uv("region_count", h.region_count, 0, kMaxUint32);
+  v.uv("region_count", h.region_count, 0, kMaxUint32);
   v.flags("flags", h.flags,
-          lossless ? GroupHeader::kQuick
-                   : GroupHeader::kContinues | GroupHeader::kCorrected | GroupHeader::kWeakPrior);
-  if (!lossless) v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
+          GroupHeader::kContinues | GroupHeader::kCorrected | GroupHeader::kWeakPrior);
+  v.uv("motion_bytes", h.motion_bytes, 0, kMaxUint32);
   v.uv("coefficient_bytes", h.coefficient_bytes, 0, kMaxUint32);
   v.uv("basis_bytes", h.basis_bytes, 0, kMaxUint32);
   if ((h.flags & GroupHeader::kCorrected) != 0) {
@@ -157,6 +157,19 @@ void describe(V& v, GroupHeader& h) {
           std::numeric_limits<float>::max());
     v.uv("correction_count", h.correction_count, 0, uint64_t{3} * kMaxVertices * kMaxGroupFrames);
     v.uv("correction_bytes", h.correction_bytes, 0, kMaxUint32);
+  }
+}
+
+template <class V>
+void describe(V& v, GroupHeader& h) {
+  v.uv("first_frame", h.first_frame, 0, kMaxUint32);
+  v.uv("frame_count", h.frame_count, 1, kMaxGroupFrames);
+  v.uv("shot", h.shot, 0, kMaxUint32);
+  v.u8("profile", h.profile, 0, 3);
+  if (h.profile == Profile::kLossless) {
+    describe_lossless(v, h);
+  } else {
+    describe_components(v, h);
   }
 }
 

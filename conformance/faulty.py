@@ -31,7 +31,8 @@ def f64(value):
 
 LENGTHS = (("draco", "draco_bytes"), ("rest", "rest_bytes"), ("position", "position_bytes"),
            ("order", "order_bytes"), ("motion", "motion_bytes"),
-           ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"), ("corrections", "correction_bytes"))
+           ("coefficients", "coefficient_bytes"), ("basis", "basis_bytes"), ("corrections", "correction_bytes"),
+           ("differences", "difference_bytes"), ("raw", "raw_bytes"))
 
 
 class Fields:
@@ -88,11 +89,11 @@ def read_reference(payload):
 
 def read_group(payload):
     f = Fields(payload)
-    h = Header(first_frame=f.uv(), frame_count=f.uv(), shot=f.uv(), profile=f.take(1), component_count=f.uv())
+    h = Header(first_frame=f.uv(), frame_count=f.uv(), shot=f.uv(), profile=f.take(1))
     if h["profile"] == b"\3":
-        h.update(flags=f.take(1), coefficient_bytes=f.uv(), basis_bytes=f.uv())
-        return h.but(coefficients=f.take(h["coefficient_bytes"]), basis=f.take(h["basis_bytes"]))
-    h["quantization_step"] = f.take(4)
+        h.update(stored_count=f.uv(), flags=f.take(1), difference_bytes=f.uv(), raw_bytes=f.uv())
+        return h.but(differences=f.take(h["difference_bytes"]), raw=f.take(h["raw_bytes"]))
+    h.update(component_count=f.uv(), quantization_step=f.take(4))
     if h["profile"] == b"\2":
         h["axis_steps"] = f.take(12)
     h.update(region_count=f.uv(), flags=f.take(1), motion_bytes=f.uv(), coefficient_bytes=f.uv(), basis_bytes=f.uv())
@@ -387,9 +388,9 @@ def add_headers(m):
         m.add(name, "corrupt", sentence, mixed.edited(b"GRUP", which, **changes))
     exact = File(m.sound("lossless_shots"))
     m.add("one_lossless_of_none", "corrupt", "A lossless group of no coded frames; the others decode.",
-          exact.edited(b"GRUP", 1, component_count=0))
+          exact.edited(b"GRUP", 1, stored_count=0))
     m.add("one_lossless_of_more", "corrupt", "A lossless group of more coded frames than frames; the others decode.",
-          exact.edited(b"GRUP", 1, component_count=4))
+          exact.edited(b"GRUP", 1, stored_count=4))
     shots = File(m.sound("shots"))
     second = read_reference(shots.chunks[shots.places(b"REFM")[1]][1])
     m.add("one_mesh_flags", "corrupt", "A reserved bit of the second of three coded meshes: the file is refused.",
@@ -459,17 +460,17 @@ def add_sections(m):
         m.add(name, "corrupt", sentence, bounded.edited(b"GRUP", **changes))
     exact = File(m.sound("lossless"))
     h = read_group(exact.chunks[2][1])
-    raw = h["basis"]
+    raw = h["raw"]
     for name, sentence, changes in (
-            ("lossless_more_frames", "More coded frames than component_count.", dict(component_count=5)),
-            ("lossless_no_frames", "A lossless group with component_count 0.", dict(component_count=0)),
+            ("lossless_more_frames", "More coded frames than stored_count.", dict(stored_count=5)),
+            ("lossless_no_frames", "A lossless group with stored_count 0.", dict(stored_count=0)),
             ("lossless_flags", "A lossless group with a flag.", dict(flags=b"\2")),
-            ("lossless_digits", "A set of ten digits.", dict(basis=bytes([raw[0] & 0xF0 | 10]) + raw[1:])),
-            ("lossless_short_raw", "Raw bits that end early.", dict(basis=raw[:len(raw) // 2])),
-            ("lossless_long_raw", "A byte of raw bits too many.", dict(basis=raw + b"\0")),
+            ("lossless_digits", "A set of ten digits.", dict(raw=bytes([raw[0] & 0xF0 | 10]) + raw[1:])),
+            ("lossless_short_raw", "Raw bits that end early.", dict(raw=raw[:len(raw) // 2])),
+            ("lossless_long_raw", "A byte of raw bits too many.", dict(raw=raw + b"\0")),
             ("lossless_short_code", "Half of the range code.",
-             dict(coefficients=h["coefficients"][:len(h["coefficients"]) // 2])),
-            ("lossless_distance", "A copy of a frame before the group.", dict(coefficients=bytes(8)))):
+             dict(differences=h["differences"][:len(h["differences"]) // 2])),
+            ("lossless_distance", "A copy of a frame before the group.", dict(differences=bytes(8)))):
         m.add(name, "corrupt", sentence, exact.edited(b"GRUP", **changes))
     fast = File(m.sound("fast_order"))
     plain = read_reference(fast.chunks[1][1])

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bitstream/headers.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/archive/stored_signature.h"

@@ -56,7 +56,7 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
                               {"components", g.component_count},
                               {"bytes", g.bytes},
                               {"continues", g.continues},
-                              {"lossless", g.lossless}});
+                              {"lossless", g.profile == Profile::kLossless}});
   }
   for (const auto& gap : info.missing)
     json["missing"].push_back({{"first_frame", gap.first_frame + 1}, {"frames", gap.frame_count}});
@@ -86,8 +86,8 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
   for (const auto& g : info.groups) {
     out << "  frames " << grouped(g.first_frame + 1) << " to "
         << grouped(g.first_frame + g.frame_count) << ": ";
-    if (g.lossless) {
-      out << "lossless, " << counted(g.component_count, "coded frame");
+    if (g.profile == Profile::kLossless) {
+      out << "lossless, " << counted(g.stored_count, "coded frame");
     } else {
       out << counted(g.component_count, "component") << ", " << counted(g.region_count, "region");
     }

@@ -13,11 +13,33 @@ namespace {
 /// Of weights, graph and contexts of a field while it is decoded.
 constexpr uint64_t kBytesPerRow = 2600;
 constexpr uint64_t kFastBytesPerRow = 800;  ///< whose equations are not kept
+constexpr uint64_t kBytesPerTime = 3 * kBytesPerRow;
 /// Of a reference mesh while it is decoded, without what Draco takes.
 constexpr uint64_t kMeshBytesPerVertex = 720, kMeshBytesPerFace = 80;
 
-uint64_t bytes_per_row(Profile profile) {
-  return profile == Profile::kFast ? kFastBytesPerRow : kBytesPerRow;
+/// What a group of a profile takes for each row of its fields.
+struct FieldMemory {
+  uint64_t row = 0;   ///< of the surface
+  uint64_t time = 0;  ///< with its three axes
+};
+
+FieldMemory field_memory(Profile profile) {
+  switch (profile) {
+    case Profile::kMain:
+    case Profile::kThesis:
+      return {kBytesPerRow, kBytesPerTime};
+    case Profile::kFast:
+      return {kFastBytesPerRow, kBytesPerTime};
+    case Profile::kLossless:
+      break;
+  }
+  return {kBytesPerRow, 0};
+}
+
+/// Of the frames that a lossless group stores.
+uint64_t stored_memory(uint64_t vertices, const GroupHeader& h) {
+  return h.stored_count * (12 * vertices + 2 * sizeof(std::vector<float>)) +
+         2 * sizeof(uint32_t) * h.frame_count;
 }
 
 template <class T, class Allocator>
@@ -33,18 +55,18 @@ uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles) {
 }
 
 uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
-  if (h.profile == Profile::kLossless) return vertices * kBytesPerRow + kept_memory(vertices, h);
+  const FieldMemory field = field_memory(h.profile);
   const uint64_t components = h.component_count;
-  const uint64_t surface = vertices * (bytes_per_row(h.profile) + 4 * components);
+  const uint64_t surface = vertices * (field.row + 4 * components);
   // The basis is there as it was decoded, by component in binary64, and by frame.
-  const uint64_t basis = 3 * uint64_t{h.frame_count} * (kBytesPerRow + 16 * (components + 1));
+  const uint64_t basis = h.frame_count * (field.time + uint64_t{48} * (components + 1));
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
                                         uint64_t{h.region_count} * sizeof(MotionModel::Transform));
   const bool corrected = h.correction_count > 0;
   const uint64_t corrections = corrected ? CorrectionField::memory(vertices, h.frame_count) +
                                                2 * Corrections::kEntryBytes * h.correction_count
                                          : 0;
-  return surface + basis + motion + corrections;
+  return surface + basis + motion + corrections + stored_memory(vertices, h);
 }
 
 // The estimator and its weights, what contexts look back on, and the contexts themselves.
@@ -55,22 +77,18 @@ uint64_t state_memory(uint64_t vertices) {
 
 uint64_t kept_memory(const DecodedSurface& s) {
   const PredictionGraph& graph = s.surface.graph;
-  return sizeof(DecodedSurface) + bytes_of(s.grid) + bytes_of(s.lanes.points) +
-         bytes_of(s.lanes.weights) + bytes_of(s.output) + bytes_of(s.surface.order) +
-         bytes_of(graph.rows) + bytes_of(graph.step_level);
+  return sizeof(DecodedSurface) + bytes_of(s.surface.grid) + LaneStart::bytes(graph.size()) +
+         bytes_of(s.output) + bytes_of(s.surface.order) + bytes_of(graph.rows) +
+         bytes_of(graph.step_level);
 }
 
 uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {
-  if (h.profile == Profile::kLossless) {
-    const uint64_t stored = h.component_count * (12 * vertices + 2 * sizeof(std::vector<float>));
-    return sizeof(GroupSynthesis) + stored + 4 * sizeof(uint32_t) * uint64_t{h.frame_count};
-  }
   const uint64_t planes =
       h.component_count * (4 * (vertices + kTileRows) + sizeof(std::vector<float>));
   const uint64_t times = 3 * uint64_t{h.frame_count} * (4 * uint64_t{h.component_count} + 8);
   const uint64_t corrections = h.frame_count * sizeof(std::vector<float>) +
                                2 * Corrections::kEntryBytes * h.correction_count;
-  return sizeof(GroupSynthesis) + planes + times + corrections;
+  return sizeof(GroupSynthesis) + planes + times + corrections + stored_memory(vertices, h);
 }
 
 uint64_t kept_memory(const Connectivity& c) { return bytes_of(c.face_sizes) + bytes_of(c.corners); }

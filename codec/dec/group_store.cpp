@@ -13,15 +13,9 @@ namespace reeb {
 
 namespace {
 
-DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header, bool plain) {
+DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header) {
   DecodedSurface out;
-  out.grid = std::move(mesh.grid);
-  if (plain) {
-    out.surface = std::move(mesh.surface);
-    out.lanes = lane_start(out.surface, GridPoints(out.grid));
-  } else {
-    out.surface = build_surface_graph(GridPoints(out.grid), mesh.triangles);
-  }
+  out.surface = Surface(mesh);
   out.output.reserve(out.surface.order.size());
   for (const uint32_t v : out.surface.order) out.output.push_back(mesh.output_index[v]);
   std::copy(std::begin(header.origin), std::end(header.origin), out.origin);
@@ -127,10 +121,9 @@ Status GroupStore::open_shot(const ReferenceChunk& reference, Caller caller,
     return s;
   ReferenceMesh mesh;
   if (Status s = decode_reference(chunk.mesh, options_.limits, mesh); !s.ok()) return s;
-  const bool plain = (chunk.mesh_header.flags & MeshHeader::kPlain) != 0;
   auto faces = std::make_shared<ShotFaces>(options_.resource());
   faces->connectivity = std::move(mesh.connectivity);
-  shot->surface = make_surface(std::move(mesh), chunk.header, plain);
+  shot->surface = make_surface(std::move(mesh), chunk.header);
   shot->lease.shrink(kept_memory(shot->surface));
   if (Status s = acquire(kept_memory(faces->connectivity), caller, faces->lease); !s.ok()) return s;
   const std::lock_guard lock(mutex_);

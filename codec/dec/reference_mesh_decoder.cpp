@@ -7,7 +7,6 @@
 #include "bitstream/bytes.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
-#include "codec/common/fast/contraction.h"
 #include "codec/common/fast/plain_order.h"
 #include "codec/common/fast/plain_positions.h"
 #include "codec/common/mesh/mesh_walk.h"
@@ -136,18 +135,16 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   MeshState state;
   state.vertex_count = h.vertex_count;
   state.face_count = h.face_count;
-  const bool plain = (h.flags & MeshHeader::kPlain) != 0;
+  out.plain = (h.flags & MeshHeader::kPlain) != 0;
   const uint64_t max_triangles = kElementsPerByte * bytes.size();
   std::optional<TriangleTopology> topology;
-  if (Status s = decode_state(sections, limits, max_triangles, plain, state, topology); !s.ok())
+  if (Status s = decode_state(sections, limits, max_triangles, out.plain, state, topology); !s.ok())
     return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
-  if (plain) {
+  if (out.plain) {
     Status s = decode_plain(h, sections, out.triangles, state.grid, out.output_index);
     if (!s.ok()) return s;
-    out.surface = contract_mesh(h.vertex_count, out.triangles);
-    weigh_rows(GridPoints(state.grid), out.surface);
   }
   if (Status s = decode_order(h, sections.order, out.triangles, topology, out.output_index);
       !s.ok())

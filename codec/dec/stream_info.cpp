@@ -23,7 +23,7 @@ bool is_whole(const GroupChunk& g, const StreamInfo& info) {
 void add_group(const ContainerReader& container, const GroupChunk& g, StreamInfo& info) {
   const GroupHeader& h = g.header;
   info.groups.push_back({h.first_frame, h.frame_count, h.shot, h.region_count, h.component_count,
-                         g.size, g.continues(), h.profile == Profile::kLossless});
+                         g.size, g.continues(), h.profile, h.stored_count});
   if (const ReferenceChunk* r = container.reference(h.shot)) {
     info.shots[static_cast<size_t>(r - container.references.data())].frame_count += h.frame_count;
   }

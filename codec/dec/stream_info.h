@@ -21,10 +21,11 @@ struct StreamInfo {
     uint32_t frame_count = 0;
     uint32_t shot = 0;
     uint32_t region_count = 0;     ///< regions of the affine motion model; 0 where it is not used
-    uint32_t component_count = 0;  ///< temporal components; lossless: frames that are not copies
+    uint32_t component_count = 0;  ///< terms that positions are the sum of; 0 in lossless groups
     uint64_t bytes = 0;
     bool continues = false;  ///< decodes only after the group before
-    bool lossless = false;
+    Profile profile = Profile::kMain;
+    uint32_t stored_count = 0;  ///< lossless: frames that are not copies
   };
   struct ShotInfo {
     uint32_t first_frame = 0;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "bitstream/headers.h"
 #include "codec/common/base/float_state.h"
 #include "codec/enc/lossless/lossless_sequence.h"
+#include "codec/enc/search/profile_tools.h"
 #include "codec/enc/search/sequence_encoder.h"
 #include "codec/enc/search/snapped_sequence.h"
 
@@ -42,7 +44,9 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
     return Status::invalid("effort is not within 1 to 9");
   }
   if (options.open_groups > kMaxOpenGroups) return Status::invalid("open_groups is above 63");
-  if (options.open_groups > 0 && options.profile != Profile::kMain && !lossless) {
+  if (options.profile == Profile::kLossless && !lossless)
+    return Status::invalid("the lossless profile has no target but Target::kLossless");
+  if (options.open_groups > 0 && !lossless && !tools_of(options.profile).open_groups) {
     return Status::invalid("open_groups needs the main profile");
   }
   if (options.regions > 1024) return Status::invalid("regions is above 1024");
@@ -57,7 +61,7 @@ Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
                    std::vector<uint8_t>& out, EncodeStats& stats) {
   constexpr double kMinRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
   const double step = 2 * options.target_value;
-  if (options.profile != Profile::kMain || stats.bpvf < kMinRate ||
+  if (!tools_of(options.profile).snaps || stats.bpvf < kMinRate ||
       !(step < static_cast<double>(kLargestPosition)))
     return {};
   std::vector<uint8_t> other;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bitstream/headers.h"
+#include "bitstream/profile.h"
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
 

@@ -31,10 +31,7 @@ void require(const Status& status) {
 BuiltMesh finish_mesh(Bytes bytes) {
   ReferenceMesh mesh;
   require(decode_reference(bytes, {}, mesh));
-  if (mesh.surface.graph.size() == 0)
-    mesh.surface = build_surface_graph(GridPoints(mesh.grid), mesh.triangles);
-  LaneStart lanes = lane_start(mesh.surface, GridPoints(mesh.grid));
-  return {std::move(bytes), std::move(mesh.grid), std::move(mesh.surface), std::move(lanes)};
+  return {std::move(bytes), Surface(mesh)};
 }
 
 void code_components(Field& field, BinaryEncoder& coder, uint32_t count,
@@ -72,12 +69,14 @@ Bytes code_lanes(LaneField field, uint32_t count, const Residuals& residuals) {
 
 Bytes code_coefficients(const BuiltMesh& mesh, const BuiltGroup& group) {
   if (group.header.profile == Profile::kFast) {
-    return code_lanes(LaneField(mesh.surface.graph, mesh.lanes, group.header.wary()),
+    return code_lanes(LaneField(mesh.surface.graph, mesh.surface.lanes(), group.header.wary()),
                       group.header.component_count, group.coefficients);
   }
-  Field field(mesh.surface.graph,
-              surface_field_options(group.header.profile, group.header.weak_prior()), 1);
-  field.learn_reference(GridPoints(mesh.grid), mesh.surface.order);
+  const bool thesis = group.header.profile == Profile::kThesis;
+  Field field(
+      mesh.surface.graph,
+      thesis ? unpredicted_field_options() : surface_field_options(group.header.weak_prior()), 1);
+  field.learn_reference(mesh.surface.points(), mesh.surface.order);
   BinaryEncoder coder;
   code_components(field, coder, group.header.component_count, group.coefficients);
   return coder.finish();

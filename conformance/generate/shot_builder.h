@@ -8,10 +8,9 @@
 
 #include "bitstream/container.h"
 #include "codec/common/base/sequence.h"
-#include "codec/common/fast/lane_weights.h"
+#include "codec/common/fast/surface.h"
 #include "codec/common/fields/field.h"
 #include "codec/common/motion/motion_model.h"
-#include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/synthesis/corrections.h"
 #include "codec/enc/reference/reference_mesh_encoder.h"
 #include "conformance/generate/stream.h"
@@ -24,11 +23,9 @@ using Residuals = std::function<int64_t(uint32_t component, uint32_t row)>;
 /// A coded mesh and what its groups need to know of it.
 struct BuiltMesh {
   Bytes bytes;
-  std::vector<int32_t> grid;  ///< [coding vertex][xyz]
-  SurfaceGraph surface;
-  LaneStart lanes;  ///< for the fast profile
+  Surface surface;
 
-  uint32_t rows() const { return surface.graph.size(); }
+  uint32_t rows() const { return surface.rows(); }
 };
 
 /// Grid positions in input order, [vertex][xyz].

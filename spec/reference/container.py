@@ -82,17 +82,20 @@ class Group:
     frame_count: int
     shot: int
     profile: int
-    component_count: int
-    quantization_step: float
-    axis_step: tuple
-    region_count: int
-    flags: int
+    flags: int = 0
+    component_count: int = 0
+    quantization_step: float = 1.0
+    axis_step: tuple = (1.0, 1.0, 1.0)
+    region_count: int = 0
+    stored_count: int = 0
     motion: bytes = b""
     coefficients: bytes = b""
     basis: bytes = b""
     correction_step: float = 1.0
     correction_count: int = 0
     corrections: bytes = b""
+    differences: bytes = b""
+    raw: bytes = b""
 
 
 @dataclass
@@ -145,20 +148,36 @@ def read_group(payload):
     frame_count = reader.uv("frame_count", 1, 65536)
     shot = reader.uv("shot", 0, UINT32)
     profile = reader.u8("profile", 0, 3)
-    component_count = reader.uv("component_count", 0, 3 * 65536)
-    lossless = profile == LOSSLESS
-    step = 1.0 if lossless else reader.f32("quantization_step", LEAST_F32, LARGEST_F32)
-    axis_step = (1.0, 1.0, 1.0)
-    if profile == THESIS:
-        axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
-    region_count = 0 if lossless else reader.uv("region_count", 0, UINT32)
-    flags = reader.flags("flags", QUICK if lossless else CONTINUES | CORRECTED | WEAK_PRIOR)
-    group = Group(first_frame, frame_count, shot, profile, component_count, step, axis_step, region_count, flags)
-    motion_bytes = 0 if lossless else reader.uv("motion_bytes", 0, UINT32)
+    group = Group(first_frame, frame_count, shot, profile)
+    if profile == LOSSLESS:
+        read_lossless(reader, group)
+    else:
+        read_components(reader, group)
+    require(reader.remaining() == 0, "GRUP: sections do not fill the chunk")
+    return group
+
+
+def read_lossless(reader, group):
+    group.stored_count = reader.uv("stored_count", 0, 3 * 65536)
+    group.flags = reader.flags("flags", QUICK)
+    difference_bytes = reader.uv("difference_bytes", 0, UINT32)
+    raw_bytes = reader.uv("raw_bytes", 0, UINT32)
+    group.differences = reader.take(difference_bytes)
+    group.raw = reader.take(raw_bytes)
+
+
+def read_components(reader, group):
+    group.component_count = reader.uv("component_count", 0, 3 * 65536)
+    group.quantization_step = reader.f32("quantization_step", LEAST_F32, LARGEST_F32)
+    if group.profile == THESIS:
+        group.axis_step = tuple(reader.f32("axis_step", LEAST_F32, LARGEST_F32) for _ in range(3))
+    group.region_count = reader.uv("region_count", 0, UINT32)
+    group.flags = reader.flags("flags", CONTINUES | CORRECTED | WEAK_PRIOR)
+    motion_bytes = reader.uv("motion_bytes", 0, UINT32)
     coefficient_bytes = reader.uv("coefficient_bytes", 0, UINT32)
     basis_bytes = reader.uv("basis_bytes", 0, UINT32)
     correction_bytes = 0
-    if flags & CORRECTED:
+    if group.flags & CORRECTED:
         group.correction_step = reader.f64("correction_step", 2.0 ** -1022, LARGEST_F32)
         group.correction_count = reader.uv("correction_count", 0, 3 * (1 << 25) * 65536)
         correction_bytes = reader.uv("correction_bytes", 0, UINT32)
@@ -166,8 +185,6 @@ def read_group(payload):
     group.coefficients = reader.take(coefficient_bytes)
     group.basis = reader.take(basis_bytes)
     group.corrections = reader.take(correction_bytes)
-    require(reader.remaining() == 0, "GRUP: sections do not fill the chunk")
-    return group
 
 
 def read_metadata(payload):

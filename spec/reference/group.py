@@ -34,14 +34,12 @@ def check_group(group):
     coordinates = 3 * group.frame_count
     thesis = group.profile == THESIS
     if group.profile == LOSSLESS:
-        fits = 1 <= group.component_count <= group.frame_count
-    else:
-        fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
+        require(1 <= group.stored_count <= group.frame_count, "stored_count does not fit the frames")
+    fits = group.component_count == coordinates if thesis else group.component_count <= coordinates
     require(fits, "component_count does not fit the frames")
     require(group.region_count <= 1024, "region_count is out of range")
     may_be_weak = group.profile in (MAIN, FAST) and not group.flags & CONTINUES
-    require(may_be_weak or group.profile == LOSSLESS or not group.flags & WEAK_PRIOR,
-            "a weak prior where no weights start")
+    require(may_be_weak or not group.flags & WEAK_PRIOR, "a weak prior where no weights start")
     unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
 

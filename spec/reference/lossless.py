@@ -198,8 +198,8 @@ class RowState:
 class LosslessGroup:
     def __init__(self, group, rows, positions, reference):
         """positions: grid position of every row."""
-        self.decoder = RangeDecoder(group.coefficients)
-        self.raw = RawBits(group.basis)
+        self.decoder = RangeDecoder(group.differences)
+        self.raw = RawBits(group.raw)
         self.graph = rows
         self.quick = group.flags & QUICK != 0
         count = len(rows)
@@ -237,8 +237,8 @@ class LosslessGroup:
             else:
                 self.decode_frame()
                 self.coded += 1
-                require(self.coded <= group.component_count, "more coded frames than component_count")
-        require(self.coded == group.component_count, "fewer coded frames than component_count")
+                require(self.coded <= group.stored_count, "more coded frames than stored_count")
+        require(self.coded == group.stored_count, "fewer coded frames than stored_count")
         self.decoder.check()
         self.raw.check_end()
 

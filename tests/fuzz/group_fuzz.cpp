@@ -3,6 +3,7 @@
 // sections.
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "bitstream/bytes.h"
@@ -20,9 +21,10 @@ constexpr uint32_t kFrames = 8;
 reeb::DecodedSurface make_surface() {
   const reeb::test::Shape shape = reeb::test::torus(8, 6);
   reeb::DecodedSurface out;
-  out.grid = reeb::test::on_grid(shape, 9);
-  out.surface = reeb::build_surface_graph(reeb::GridPoints(out.grid),
-                                          reeb::test::triangles_of(shape.connectivity));
+  reeb::ReferenceMesh mesh;
+  mesh.grid = reeb::test::on_grid(shape, 9);
+  mesh.triangles = reeb::test::triangles_of(shape.connectivity);
+  out.surface = reeb::Surface(mesh);
   out.output = out.surface.order;
   return out;
 }
@@ -34,11 +36,12 @@ GroupHeader make_header(uint8_t choice) {
   GroupHeader h;
   h.frame_count = kFrames;
   h.profile = kProfiles[choice % kProfiles.size()];
-  h.component_count = h.profile == Profile::kThesis ? 3 * kFrames : 6;
   if (h.profile == Profile::kLossless) {
+    h.stored_count = 6;
     h.flags = (choice & 0x20) != 0 ? GroupHeader::kQuick : 0;
     return h;
   }
+  h.component_count = h.profile == Profile::kThesis ? 3 * kFrames : 6;
   h.quantization_step = 0.01f;
   h.region_count = (choice & 0x40) != 0 ? 3 : 0;
   if ((choice & 0x80) != 0) {
@@ -63,10 +66,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   chunk.coefficients = in.take(std::min<size_t>(lengths[1], in.remaining()));
   chunk.basis = in.take(std::min<size_t>(lengths[2], in.remaining()));
   chunk.corrections = in.take(in.remaining());
-  chunk.header.motion_bytes = chunk.motion.size();
-  chunk.header.coefficient_bytes = chunk.coefficients.size();
-  chunk.header.basis_bytes = chunk.basis.size();
-  chunk.header.correction_bytes = chunk.corrections.size();
+  if (chunk.header.profile == Profile::kLossless) {
+    chunk.differences = std::exchange(chunk.coefficients, {});
+    chunk.raw = std::exchange(chunk.basis, {});
+  }
+  for (const reeb::GroupSection& s : reeb::kGroupSections)
+    chunk.header.*s.bytes = (chunk.*s.data).size();
   reeb::GroupState state;
   reeb::GroupSynthesis synthesis;
   if (!reeb::decode_group(chunk, surface, 1, false, state, synthesis).ok()) return 0;

@@ -17,7 +17,9 @@ struct LaneStart {
   std::vector<float> points;   ///< kPointStride a row: its vertex on the grid; padded at the end
   std::vector<float> weights;  ///< kMaxNeighbours a row; 0 for padding
 
-  bool empty() const { return weights.empty(); }
+  static uint64_t bytes(uint64_t rows) {
+    return (rows * (kPointStride + kMaxNeighbours) + kPointStride) * sizeof(float);
+  }
 };
 LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points);
 

@@ -29,14 +29,20 @@ const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
 
 }  // namespace
 
-FieldOptions surface_field_options(Profile profile, bool weak_prior) {
+FieldOptions surface_field_options(bool weak_prior) {
   FieldOptions options;
-  options.predict = profile != Profile::kThesis;
-  options.adaptive = profile == Profile::kMain && uses(coding_tool::kReestimation);
+  options.adaptive = uses(coding_tool::kReestimation);
   options.noise_share = 2.2;
   options.noise_floor = 0.2;
   options.weights.ring_deviation = weak_prior ? 2.4 : 1.4;
   options.weights.extra_deviation = weak_prior ? 1.5 : 0.9;
+  return options;
+}
+
+FieldOptions unpredicted_field_options() {
+  FieldOptions options;
+  options.predict = false;
+  options.adaptive = false;
   return options;
 }
 

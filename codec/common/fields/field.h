@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "bitstream/headers.h"
 #include "codec/common/fields/magnitude_model.h"
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/prediction/weights.h"
@@ -24,9 +23,11 @@ struct FieldOptions {
   bool adaptive = true;       ///< re-estimate weights; false keeps those of the reference
 };
 
-/// Options of the two fields of a group; `weak_prior` as in its header.
-FieldOptions surface_field_options(Profile profile, bool weak_prior = false);
+/// Options of the two fields of a group of the main profile; `weak_prior` as in its header.
+FieldOptions surface_field_options(bool weak_prior = false);
 FieldOptions basis_field_options();
+/// Options of the one field of a group of the thesis profile.
+FieldOptions unpredicted_field_options();
 
 /// Values are in units of the group's quantization step q.
 class Field {

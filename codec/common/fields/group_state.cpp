@@ -3,11 +3,10 @@
 namespace reeb {
 
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              Profile profile, bool weak_prior, unsigned threads) {
+                              bool weak_prior, unsigned threads) {
   GroupState state;
-  state.profile = profile;
   state.coefficients =
-      std::make_unique<Field>(surface.graph, surface_field_options(profile, weak_prior), threads);
+      std::make_unique<Field>(surface.graph, surface_field_options(weak_prior), threads);
   state.coefficients->learn_reference(points, surface.order);
   return state;
 }

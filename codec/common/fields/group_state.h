@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "bitstream/headers.h"
 #include "codec/common/fields/field.h"
 #include "codec/common/prediction/prediction_graph.h"
 
@@ -12,13 +11,13 @@ namespace reeb {
 /// Empty before the first group and where the last one has nothing to hand on. The weights of the
 /// basis are no part of it: what one stretch of time teaches about its basis misleads the next.
 struct GroupState {
-  Profile profile = Profile::kMain;
   std::unique_ptr<Field> coefficients;  ///< refers to the surface graph it was started on
   MagnitudeModel basis_contexts;
 };
 
-/// State of a group that starts from the reference mesh alone; `weak_prior` as in its header.
+/// State of a group of the main profile that starts from the reference mesh alone; `weak_prior` as
+/// in its header.
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              Profile profile, bool weak_prior, unsigned threads);
+                              bool weak_prior, unsigned threads);
 
 }  // namespace reeb

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "codec/common/base/sequence.h"
-#include "codec/common/prediction/prediction_graph.h"
 
 namespace reeb {
 
@@ -24,8 +23,8 @@ struct ReferenceMesh {
   Connectivity connectivity;  ///< in output numbering; face order and first corners are free
   std::vector<int32_t> grid;  ///< [coding vertex][xyz], 0 .. kGridMax
   std::vector<uint32_t>
-      triangles;         ///< three coding vertices each, all different; every face as a fan
-  SurfaceGraph surface;  ///< of a plain mesh; else empty
+      triangles;       ///< three coding vertices each, all different; every face as a fan
+  bool plain = false;  ///< coded to be quick to decode, for the fast profile
   std::vector<uint32_t> output_index;  ///< output vertex of each coding vertex, a permutation
 };
 

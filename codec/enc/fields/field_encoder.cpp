@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codec/common/base/coding_tools.h"
+#include "codec/enc/fields/quantization.h"
 
 namespace reeb {
 
@@ -25,32 +26,20 @@ double magnitude_bits(MagnitudeModel::Bins& bins, uint32_t magnitude) {
 
 FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double lambda,
                            double mass_exponent)
-    : field_(field), lambda_(uses(coding_tool::kRdo) ? lambda : 0) {
-  for (const uint8_t level : graph.step_level)
-    importance_.push_back(std::exp2(mass_exponent * level / 8.0));
-}
+    : field_(field),
+      lambda_(uses(coding_tool::kRdo) ? lambda : 0),
+      importance_(row_importance(graph, mass_exponent)) {}
 
 int64_t FieldEncoder::decide(double residual, double step, double importance,
                              MagnitudeModel::Bins& bins) const {
   constexpr auto kLargest = MagnitudeModel::kMaxMagnitude / 2;
   const double size = std::min(std::abs(residual) / step, static_cast<double>(kLargest));
-  const uint64_t nearest = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
-  uint64_t best = nearest;
-  if (nearest > 0 && nearest < MagnitudeModel::kEscapeBegin) {
-    double best_cost = 1e300;
-    const auto consider = [&](uint32_t n) {
-      const double error = (size - n) * step;
-      const double cost = error * error * importance + lambda_ * magnitude_bits(bins, n);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = n;
-      }
-    };
-    consider(static_cast<uint32_t>(nearest));
-    consider(static_cast<uint32_t>(nearest) - 1);
-    if (nearest > 1) consider(0);
+  uint64_t n = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
+  if (n > 0 && n < MagnitudeModel::kEscapeBegin) {
+    n = cheapest_magnitude(size, static_cast<uint32_t>(n), step, importance, lambda_,
+                           [&](uint32_t m) { return magnitude_bits(bins, m); });
   }
-  return residual < 0 ? -static_cast<int64_t>(best) : static_cast<int64_t>(best);
+  return residual < 0 ? -static_cast<int64_t>(n) : static_cast<int64_t>(n);
 }
 
 double FieldEncoder::code_component(const float* target) {
@@ -61,13 +50,7 @@ double FieldEncoder::code_component(const float* target) {
     return field_.model().code(recorder_, bins, n);
   };
   field_.code_component(quantize);
-  const std::vector<float>& plane = field_.plane(field_.component_count() - 1);
-  double error = 0;
-  for (size_t row = 0; row < plane.size(); ++row) {
-    const double d = static_cast<double>(plane[row]) - static_cast<double>(target[row]);
-    error += d * d;
-  }
-  return error;
+  return squared_error(field_.plane(field_.component_count() - 1), target);
 }
 
 }  // namespace reeb

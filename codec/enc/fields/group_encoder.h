@@ -3,14 +3,12 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "codec/common/prediction/prediction_graph.h"
+#include "codec/common/fields/group_state.h"
 #include "codec/common/synthesis/synthesis.h"
-#include "codec/dec/group_decoder.h"
 #include "codec/enc/fields/correction_encoder.h"
 #include "codec/enc/fields/group_signal.h"
 #include "codec/enc/motion/motion_fit.h"
@@ -18,6 +16,16 @@
 #include "codec/enc/search/laplace_source.h"
 
 namespace reeb {
+
+/// How a group is coded.
+struct GroupSettings {
+  double q = 0;  ///< quantization step, > 0, world units
+  /// Main profile: weights may go further from what distances tell; fast profile: they are wary.
+  bool weak_prior = false;
+  /// Sends exactly so many components; nothing = as many as pay. Without a meaning in the thesis
+  /// profile.
+  std::optional<uint32_t> components;
+};
 
 /// One encoding of a group.
 struct CodedGroup {
@@ -42,7 +50,7 @@ struct GroupRun {
   bool continued = false;  ///< the next one will
 };
 
-/// Encodes one group at a given quantization step.
+/// A group's trajectories and how its profile codes them.
 class GroupEncoder {
  public:
   explicit GroupEncoder(GroupSignal signal) : signal_(std::move(signal)) {}
@@ -50,22 +58,15 @@ class GroupEncoder {
   GroupEncoder(const GroupEncoder&) = delete;
   GroupEncoder& operator=(const GroupEncoder&) = delete;
 
-  /// Encodes on a reference mesh with quantization step q > 0, world units. `motion` may be null.
-  virtual CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
-                            GroupRun& run) = 0;
+  /// Encodes on a reference mesh. `motion` may be null.
+  virtual CodedGroup encode(const SurfaceContext& surface, const GroupSettings& settings,
+                            const MotionFit* motion, GroupRun& run) = 0;
 
-  /// Bits and squared error to expect at quantization step q, roughly, without encoding.
-  virtual RatePoint expect(const SurfaceContext& surface, double q) = 0;
+  /// Bits and squared error to expect, roughly, without encoding.
+  virtual RatePoint expect(const SurfaceContext& surface, const GroupSettings& settings) = 0;
 
   /// What the motion model is to predict: V x K, world units, rows as the surface graph.
   virtual Eigen::MatrixXf motion_targets(const SurfaceContext& surface) = 0;
-
-  /// From now on sends exactly `count` components; nothing = as many as pay. Without a meaning in
-  /// the thesis profile.
-  void hold_components(std::optional<uint32_t> count) { held_count_ = count; }
-
-  /// Lets weights go further from what distances tell. Without a meaning but in the main profile.
-  void set_weak_prior(bool weak_prior) { weak_prior_ = weak_prior; }
 
   const GroupSignal& signal() const { return signal_; }
 
@@ -73,15 +74,10 @@ class GroupEncoder {
   using Planes = std::vector<std::vector<float>>;
 
   GroupSignal signal_;
-  std::optional<uint32_t> held_count_;
-  bool weak_prior_ = false;
 };
 
 /// Fills the motion section and adds the motion to the planes.
 void encode_motion(const SurfaceContext& surface, MotionModel& model, uint32_t stride,
                    CodedGroup& out, std::vector<std::vector<float>>& planes);
-
-std::unique_ptr<GroupEncoder> make_group_encoder(GroupSignal signal, Profile profile,
-                                                 unsigned threads);
 
 }  // namespace reeb

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/enc/fields/quantization.h"
+
 namespace reeb {
 
 SymbolCosts expected_costs() {
@@ -35,29 +37,20 @@ SymbolCosts costs_of(const RansTables& tables) {
 
 LaneFieldEncoder::LaneFieldEncoder(LaneField& field, const PredictionGraph& graph, double lambda,
                                    double mass_exponent, const SymbolCosts& costs)
-    : field_(field), lambda_(lambda), costs_(costs) {
-  for (const uint8_t level : graph.step_level)
-    importance_.push_back(std::exp2(mass_exponent * level / 8.0));
-}
+    : field_(field),
+      lambda_(lambda),
+      importance_(row_importance(graph, mass_exponent)),
+      costs_(costs) {}
 
 int32_t LaneFieldEncoder::decide(double residual, uint32_t cls, uint32_t row) const {
   const double step = static_cast<double>(field_.step(row));
   const double size = std::min(std::abs(residual) / step, double{kRansMaxMagnitude} - 1);
-  const auto nearest = static_cast<int32_t>(size + 0.5);
   const int32_t sign = residual < 0 ? -1 : 1;
-  int32_t best = nearest;
-  double best_cost = 1e300;
-  for (const int32_t n : {nearest, nearest - 1, 0}) {
-    if (n < 0) continue;
-    const double error = (size - n) * step;
-    const double bits = static_cast<double>(costs_[cls][rans_symbol(sign * n)]);
-    const double cost = error * error * importance_[row] + lambda_ * bits;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = n;
-    }
-  }
-  return sign * best;
+  const uint32_t n = cheapest_magnitude(
+      size, static_cast<uint32_t>(size + 0.5), step, importance_[row], lambda_, [&](uint32_t m) {
+        return static_cast<double>(costs_[cls][rans_symbol(sign * static_cast<int32_t>(m))]);
+      });
+  return sign * static_cast<int32_t>(n);
 }
 
 std::vector<CodedComponent> LaneFieldEncoder::code_block(
@@ -81,13 +74,8 @@ std::vector<CodedComponent> LaneFieldEncoder::code_block(
     field_.note(row, guess, n);
   }
   field_.end_block(lanes, planes_);
-  for (uint32_t l = 0; l < lanes; ++l) {
-    const std::vector<float>& plane = planes_[first + l];
-    for (uint32_t row = 0; row < field_.rows(); ++row) {
-      const double d = static_cast<double>(plane[row]) - static_cast<double>(targets[l][row]);
-      out[l].error += d * d;
-    }
-  }
+  for (uint32_t l = 0; l < lanes; ++l)
+    out[l].error = squared_error(planes_[first + l], targets[l].data());
   return out;
 }
 

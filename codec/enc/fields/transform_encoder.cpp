@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "codec/common/base/coding_tools.h"
 #include "codec/enc/fields/basis_refit.h"
-#include "codec/enc/fields/field_encoder.h"
-#include "codec/enc/fields/stop_rule.h"
 
 namespace reeb {
 
@@ -37,23 +34,24 @@ std::vector<float> TransformEncoder::component_targets(const SurfaceContext& sur
   return out;
 }
 
-uint32_t TransformEncoder::most_components() const {
-  return std::min(held_count_.value_or(transform_.size()), transform_.size());
+uint32_t TransformEncoder::most_components(const GroupSettings& settings) const {
+  return std::min(settings.components.value_or(transform_.size()), transform_.size());
 }
 
-TransformEncoder::TransformEncoder(GroupSignal signal, Profile profile, unsigned threads)
+TransformEncoder::TransformEncoder(GroupSignal signal, const Shares& shares, unsigned threads)
     : GroupEncoder(std::move(signal)),
       temporal_(build_temporal_graph(signal_.frames)),
       transform_(signal_),
-      profile_(profile),
-      threads_(threads) {}
+      threads_(threads),
+      shares_(shares) {}
 
-CodedGroup TransformEncoder::encode(const SurfaceContext& surface, double q,
+CodedGroup TransformEncoder::encode(const SurfaceContext& surface, const GroupSettings& settings,
                                     const MotionFit* motion, GroupRun& run) {
   CodedGroup out;
-  out.q = static_cast<double>(static_cast<float>(q));  // as the header keeps it
-  std::fill(std::begin(out.axis_step), std::end(out.axis_step), static_cast<float>(q));
-  Planes planes = encode_coefficients(surface, motion, run, out);
+  const auto step = static_cast<float>(settings.q);  // as the header keeps it
+  out.q = static_cast<double>(step);
+  std::fill(std::begin(out.axis_step), std::end(out.axis_step), step);
+  Planes planes = encode_coefficients(surface, settings, motion, run, out);
   if (motion != nullptr) {
     MotionModel model = motion->quantize(out.axis_step, out.component_count);
     encode_motion(surface, model, 0, out, planes);
@@ -62,17 +60,15 @@ CodedGroup TransformEncoder::encode(const SurfaceContext& surface, double q,
   return out;
 }
 
-RatePoint TransformEncoder::expect(const SurfaceContext& surface, double q) {
+RatePoint TransformEncoder::expect(const SurfaceContext& surface, const GroupSettings& settings) {
   if (model_ == nullptr) {
-    // Shares as measured on ten sequences at errors of 1 to 0.01 %.
-    const bool learns = profile_ == Profile::kMain;
     const RateModelOptions options = {.lambda = kCoefficientLambda,
                                       .mass_exponent = kMassExponent,
-                                      .residual_share = learns ? 0.8 : 1.0,
-                                      .rate_share = learns ? 0.55 : 0.8};
+                                      .residual_share = shares_.residual,
+                                      .rate_share = shares_.rate};
     model_ = std::make_unique<RateModel>(surface, transform_, signal_.frames, options);
   }
-  return model_->at(q, held_count_);
+  return model_->at(settings.q, settings.components);
 }
 
 Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) {
@@ -83,51 +79,6 @@ Eigen::MatrixXf TransformEncoder::motion_targets(const SurfaceContext& surface) 
     for (uint32_t row = 0; row < surface.rows(); ++row) out(row, k) = c[surface.input[row]];
   }
   return out;
-}
-
-GroupEncoder::Planes TransformEncoder::encode_coefficients(const SurfaceContext& surface,
-                                                           const MotionFit* motion, GroupRun& run,
-                                                           CodedGroup& out) {
-  GroupState& state = run.state;
-  if (!run.continues) {
-    state = start_closed_group(surface.surface, surface.points(), profile_, weak_prior_, threads_);
-    out.weak_prior = weak_prior_;
-  }
-  // Components that are coded and then dropped leave no trace in what the next group continues.
-  std::unique_ptr<Field> copy;
-  if (run.continued && !held_count_) copy = std::make_unique<Field>(*state.coefficients);
-  Planes planes = encode_field(surface, motion, copy != nullptr ? *copy : *state.coefficients, out);
-  if (copy != nullptr)
-    decode_coefficients(out.coefficients, out.component_count, *state.coefficients);
-  if (run.continued) state.coefficients->next_group();
-  return planes;
-}
-
-GroupEncoder::Planes TransformEncoder::encode_field(const SurfaceContext& surface,
-                                                    const MotionFit* motion, Field& field,
-                                                    CodedGroup& out) {
-  const PredictionGraph& graph = surface.surface.graph;
-  FieldEncoder encoder(field, graph, kCoefficientLambda, kMassExponent);
-  StopRule stop(signal_.frames, kCoefficientLambda);
-  MotionModel model;
-  if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
-  std::vector<size_t> ends{0};
-  const uint32_t most = most_components();
-  bool more = true;
-  for (uint32_t k = 0; k < most && more; ++k) {
-    std::vector<float> target = component_targets(surface, k, out.q);
-    const double energy = energy_of(target);
-    if (motion != nullptr) subtract(model.predict(k), target);
-    const double bits_before = encoder.recorder().bits();
-    const double error = encoder.code_component(target.data());
-    ends.push_back(encoder.recorder().size());
-    more = stop.add(energy, error, encoder.recorder().bits() - bits_before) || held_count_;
-  }
-  out.component_count = held_count_ ? most : stop.best();
-  out.coefficients = encoder.recorder().encode(ends[out.component_count]);
-  Planes planes;
-  for (uint32_t k = 0; k < out.component_count; ++k) planes.push_back(field.plane(k));
-  return planes;
 }
 
 void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes& planes,
@@ -152,17 +103,6 @@ void TransformEncoder::encode_basis(const SurfaceContext& surface, const Planes&
   out.synthesis =
       synthesize(planes, coded, temporal_.order, out.q, surface.header.origin, surface.input);
   out.squared_error = refit.squared_error(out.synthesis);
-}
-
-GroupEncoder::Planes TransformEncoder::code_basis(const std::vector<std::vector<float>>& targets,
-                                                  MagnitudeModel& contexts, CodedGroup& out) {
-  Field field(temporal_.graph, basis_field_options(), threads_);
-  std::swap(field.model(), contexts);
-  FieldEncoder encoder(field, temporal_.graph, kBasisLambda, 0);
-  for (const std::vector<float>& target : targets) encoder.code_component(target.data());
-  out.basis = encoder.recorder().encode(encoder.recorder().size());
-  std::swap(field.model(), contexts);
-  return field.take_planes();
 }
 
 }  // namespace reeb

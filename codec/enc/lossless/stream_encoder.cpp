@@ -12,7 +12,7 @@
 #include "bitstream/crc32c.h"
 #include "codec/common/base/float_state.h"
 #include "codec/common/base/parallel.h"
-#include "codec/enc/lossless/lossless_encoder.h"
+#include "codec/enc/lossless/lossless_group_encoder.h"
 
 namespace reeb {
 
@@ -115,14 +115,10 @@ Status StreamEncoder::Impl::write_oldest() {
   header.shot = shots - 1;
   header.profile = Profile::kLossless;
   header.flags = options.method.quick ? GroupHeader::kQuick : uint8_t{0};
-  header.component_count = group.stored_count;
+  header.stored_count = group.stored_count;
   frames_done += group.frame_count;
-  if (Status s = writer.group(header, {.motion = {},
-                                       .coefficients = group.coefficients,
-                                       .basis = group.basis,
-                                       .corrections = {}});
-      !s.ok())
-    return s;
+  const GroupSections sections = {.differences = group.differences, .raw = group.raw};
+  if (Status s = writer.group(header, sections); !s.ok()) return s;
   return flush();
 }
 

@@ -10,7 +10,7 @@
 #include "bitstream/headers.h"
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
-#include "codec/enc/lossless/lossless_encoder.h"
+#include "codec/enc/lossless/lossless_group_encoder.h"
 
 namespace reeb {
 

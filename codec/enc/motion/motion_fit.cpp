@@ -24,7 +24,7 @@ MotionFit::MotionFit(const SurfaceContext& surface, Eigen::MatrixXf coefficients
   model_.bindings().resize(surface.rows());
   for (uint32_t row = 0; row < surface.rows(); ++row)
     model_.bindings()[row].primary = labels[surface.input[row]];
-  model_.locate(surface.points(), surface.surface.order);
+  model_.locate(surface.surface.points(), surface.surface.order);
   if (coefficients_.cols() == 0) return;  // nothing moves
   fit_transforms();
   for (uint32_t i = 0; i < kAlternations; ++i) {

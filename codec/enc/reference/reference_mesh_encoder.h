@@ -15,7 +15,6 @@ struct ReferenceOptions {
   bool reorder = false;     ///< drop the vertex order of the input
   bool face_order = false;  ///< keep the order and first corners of the faces; not with `reorder`
   bool plain = false;       ///< quick to decode, as only the fast profile has it
-  bool lanes = false;       ///< what fields of the fast profile start from is wanted
 };
 
 struct DracoPlan;

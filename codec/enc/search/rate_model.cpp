@@ -44,9 +44,7 @@ RateModel::RateModel(const SurfaceContext& surface, KarhunenLoeve& transform, ui
 
 void RateModel::sort_samples(const SurfaceContext& surface) {
   const PredictionGraph& graph = surface.surface.graph;
-  LaneStart own;  // of a surface that has none
-  if (surface.lanes.empty()) own = lane_start(surface.surface, surface.points());
-  const std::vector<float>& weights = own.empty() ? surface.lanes.weights : own.weights;
+  const std::vector<float>& weights = surface.surface.lanes().weights;
   const Eigen::VectorXd energy = transform_.row_energies();
   const double mean = energy.mean();
   const uint32_t octaves = octave_of(graph.size()) + 1;

@@ -36,6 +36,11 @@ constexpr double kSlowMeshShare = 0.6;  ///< of the size, where that pays
 constexpr double kWholeSurface = 0.9;   ///< of the vertices in one piece
 constexpr uint32_t kRegionCandidates[] = {12, 40};
 
+uint32_t grid_within(long bits) {
+  return static_cast<uint32_t>(
+      std::clamp(bits, long{ShotEncoder::kMinGridBits}, long{ShotEncoder::kMaxGridBits}));
+}
+
 bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
 
 /// The nearest that the search came to a target that it did not meet.
@@ -48,7 +53,10 @@ Status unreachable(const EncodeStats& nearest) {
 }  // namespace
 
 SequenceEncoder::SequenceEncoder(const Sequence& sequence, const EncodeOptions& options)
-    : sequence_(sequence), options_(options), effort_(effort_preset(options.effort)) {
+    : sequence_(sequence),
+      options_(options),
+      effort_(effort_preset(options.effort)),
+      tools_(tools_of(options.profile)) {
   uint32_t first_frame = 0;
   for (const Shot& shot : sequence.shots) {
     shots_.push_back(std::make_unique<ShotEncoder>(shot, first_frame, options,
@@ -86,16 +94,18 @@ double SequenceEncoder::excess_of(const Attempt& a) const {
   return measured > 0 ? std::log(measured / options_.target_value) : -1e3;
 }
 
-Status SequenceEncoder::attempt(double q, Attempt& out) {
+Status SequenceEncoder::attempt(const Settings& settings, double q, Attempt& out) {
   out = {};
+  out.settings = settings;
   out.q = q;
   ContainerWriter writer(out.bytes);
   if (Status s = writer.begin(header_of(sequence_)); !s.ok()) return s;
   if (Status s = writer.metadata(metadata_of(sequence_)); !s.ok()) return s;
   for (uint32_t i = 0; i < shots_.size(); ++i) {
-    const std::vector<CodedGroup>& groups = out.shots.emplace_back(shots_[i]->encode(q));
-    for (const CodedGroup& g : groups) out.squared_error += g.squared_error;
-    if (Status s = shots_[i]->write(i, groups, writer); !s.ok()) return s;
+    CodedShot& shot = out.shots.emplace_back();
+    if (Status s = shots_[i]->encode(settings[i], q, shot); !s.ok()) return s;
+    for (const CodedGroup& g : shot.groups) out.squared_error += g.squared_error;
+    if (Status s = shots_[i]->write(i, shot, writer); !s.ok()) return s;
   }
   if (Status s = writer.finish(); !s.ok()) return s;
   out.excess = excess_of(out);
@@ -105,15 +115,17 @@ Status SequenceEncoder::attempt(double q, Attempt& out) {
 }
 
 Status SequenceEncoder::search(double slack, double tolerance, int max_trials) {
-  Status status;
+  const Settings settings = best_.settings;
+  Status status = prepare(settings);
+  if (!status.ok()) return status;
+  const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials,
+                                         least_step(), expected_slope(settings, best_.q)};
   std::vector<Attempt> attempts;
   attempts.push_back(std::move(best_));
-  const StepSearchOptions search_options{is_error(options_.target), tolerance, max_trials,
-                                         least_step(), expected_slope(best_.q)};
   const StepTrial first{attempts[0].q, attempts[0].excess - slack};
   const StepTrial found = search_step(first, search_options, [&](double q) {
     Attempt a;
-    if (status.ok()) status = attempt(q, a);
+    if (status.ok()) status = attempt(settings, q, a);
     attempts.push_back(std::move(a));
     return status.ok() ? attempts.back().excess - slack : 0;
   });
@@ -130,10 +142,11 @@ Status SequenceEncoder::search_base() {
   const double wanted = options_.target_value / kBoundPerError;
   const double scale = rms > 0 ? std::clamp(wanted / rms, 0.1, 10.0) : 1.0;
   const double q0 = std::max(best_.q * scale, least_step());
+  const Settings settings = best_.settings;
   Status status;
   search_least(q0, kBaseRatio, effort_.base_trials, [&](double q) {
     Attempt a;
-    if (status.ok()) status = attempt(q, a);
+    if (status.ok()) status = attempt(settings, q, a);
     if (!status.ok()) return 0.0;
     const auto size = static_cast<double>(a.bytes.size());
     if (a.bytes.size() < best_.bytes.size()) best_ = std::move(a);
@@ -144,7 +157,10 @@ Status SequenceEncoder::search_base() {
 
 void SequenceEncoder::hold_components(bool held) {
   for (size_t i = 0; i < shots_.size(); ++i) {
-    shots_[i]->hold_components(held ? best_.shots[i] : std::vector<CodedGroup>());
+    std::vector<uint32_t>& components = best_.settings[i].components;
+    components.clear();
+    if (!held) continue;
+    for (const CodedGroup& g : best_.shots[i].groups) components.push_back(g.component_count);
   }
 }
 
@@ -171,7 +187,8 @@ Status SequenceEncoder::polish() {
   for (int i = 0; i < effort_.polish_trials; ++i) {
     const int stride = i % 2 == 0 ? i / 2 + 1 : -(i / 2 + 1);
     Attempt a;
-    if (Status s = attempt(q * std::exp(kPolishStride * stride), a); !s.ok()) return s;
+    if (Status s = attempt(best_.settings, q * std::exp(kPolishStride * stride), a); !s.ok())
+      return s;
     const bool better = is_error(options_.target) ? a.bytes.size() < best_.bytes.size()
                                                   : a.squared_error < best_.squared_error;
     if (meets(a) && better) best_ = std::move(a);
@@ -185,20 +202,27 @@ double SequenceEncoder::least_step() const {
   return largest / kMaxSteps;
 }
 
-RatePoint SequenceEncoder::expect(double q) const {
+Status SequenceEncoder::prepare(const Settings& settings) {
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    if (Status s = shots_[i]->prepare(settings[i]); !s.ok()) return s;
+  }
+  return {};
+}
+
+RatePoint SequenceEncoder::expect(const Settings& settings, double q) const {
   RatePoint out;
-  for (const auto& shot : shots_) {
-    const RatePoint point = shot->expect(q);
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    const RatePoint point = shots_[i]->expect(settings[i], q);
     out.bits += point.bits;
     out.distortion += point.distortion;
   }
   return out;
 }
 
-double SequenceEncoder::guess_step() const {
+double SequenceEncoder::guess_step(const Settings& settings) const {
   if (energy_ <= 0) return kAnyStep;
-  const auto fine = [this](double x) {
-    const RatePoint point = expect(std::exp(x));
+  const auto fine = [&](double x) {
+    const RatePoint point = expect(settings, std::exp(x));
     return is_error(options_.target) ? kg_of(point.distortion) < options_.target_value
                                      : point.bits > 8 * options_.target_value * bytes_per_unit();
   };
@@ -213,9 +237,9 @@ double SequenceEncoder::guess_step() const {
   return std::exp(std::max(low, least));
 }
 
-double SequenceEncoder::expected_slope(double q) const {
-  const RatePoint below = expect(q / kSlopeStride);
-  const RatePoint above = expect(q * kSlopeStride);
+double SequenceEncoder::expected_slope(const Settings& settings, double q) const {
+  const RatePoint below = expect(settings, q / kSlopeStride);
+  const RatePoint above = expect(settings, q * kSlopeStride);
   const double ratio = is_error(options_.target) ? std::sqrt(above.distortion / below.distortion)
                                                  : below.bits / above.bits;
   return std::isfinite(ratio) ? std::log(ratio) / (2 * std::log(kSlopeStride)) : 0;
@@ -229,23 +253,21 @@ double SequenceEncoder::coordinate_error() const {
   return std::sqrt(best_.squared_error / (3 * vertex_frames_));
 }
 
-Status SequenceEncoder::set_grids(double error) {
-  for (auto& shot : shots_) {
+SequenceEncoder::Settings SequenceEncoder::with_grids(Settings settings, double error) const {
+  for (size_t i = 0; i < shots_.size(); ++i) {
+    const ShotEncoder& shot = *shots_[i];
     // Under corrections positions of the reference count for more than weights: about their RMS.
-    const double cells = bounded() && error > 0 ? shot->longest_side() / (2 * error) + 1 : 1;
-    const auto fine = static_cast<uint32_t>(std::ceil(std::log2(std::min(cells, 65536.0))));
-    if (Status s = bounded() ? shot->set_grid_bits(fine) : shot->set_grid(error); !s.ok()) return s;
+    const double cells = bounded() && error > 0 ? shot.longest_side() / (2 * error) + 1 : 1;
+    const double fine = std::ceil(std::log2(std::min(cells, 65536.0)));
+    settings[i].grid_bits =
+        grid_within(bounded() ? std::lround(fine) : std::lround(shot.best_grid_bits(error)));
   }
-  return {};
+  return settings;
 }
 
-void SequenceEncoder::set_regions(uint32_t count) {
-  for (auto& shot : shots_) shot->set_regions(count);
-}
-
-Status SequenceEncoder::try_setting(bool& kept) {
+Status SequenceEncoder::try_settings(const Settings& settings, bool& kept) {
   Attempt a;
-  if (Status s = attempt(best_.q, a); !s.ok()) return s;
+  if (Status s = attempt(settings, best_.q, a); !s.ok()) return s;
   const double slope = kErrorPerBit * best_.q * best_.q;
   const auto cost = [&](const Attempt& x) {
     return (bounded() ? 0 : x.squared_error) + slope * 8 * static_cast<double>(x.bytes.size());
@@ -257,30 +279,19 @@ Status SequenceEncoder::try_setting(bool& kept) {
 
 Status SequenceEncoder::refine_grids() {
   if (!uses(coding_tool::kGridTrial)) return {};
-  const double doubt = shots_[0]->best_grid_bits(coordinate_error()) - shots_[0]->grid_bits();
+  const double doubt = shots_[0]->best_grid_bits(coordinate_error()) - best_.settings[0].grid_bits;
   int trials = std::abs(doubt) >= 0.5 - effort_.grid_doubt ? effort_.grid_trials : 0;
   // The estimate was made for reconstructions without corrections.
   if (bounded()) trials = effort_.base_trials;
   const int likely = doubt > 0 ? 1 : -1;
   bool moved = false;
   for (const int direction : {likely, -likely}) {
-    for (bool kept = true; kept && trials > 0;) {
-      std::vector<uint32_t> before;
-      bool changed = false;
-      for (auto& shot : shots_) {
-        before.push_back(shot->grid_bits());
-        if (Status s = shot->set_grid_bits(before.back() + direction); !s.ok()) return s;
-        changed = changed || shot->grid_bits() != before.back();
-      }
-      kept = false;
-      if (changed) {
-        --trials;
-        if (Status s = try_setting(kept); !s.ok()) return s;
-      }
+    for (bool kept = true; kept && trials > 0; --trials) {
+      Settings settings = best_.settings;
+      for (ShotSettings& s : settings) s.grid_bits = grid_within(long{s.grid_bits} + direction);
+      if (settings == best_.settings) break;
+      if (Status s = try_settings(settings, kept); !s.ok()) return s;
       moved = moved || kept;
-      for (size_t i = 0; i < shots_.size() && !kept; ++i) {
-        if (Status s = shots_[i]->set_grid_bits(before[i]); !s.ok()) return s;
-      }
     }
     if (moved) break;
   }
@@ -290,61 +301,52 @@ Status SequenceEncoder::refine_grids() {
 // Short sequences spend much on what a plain mesh makes quick to decode: there the mesh of the main
 // profile may halve the size, by coding positions and order better, and isolated vertices.
 Status SequenceEncoder::choose_meshes() {
-  if (options_.profile != Profile::kFast || sequence_.frame_count() > kShort * shots_.size())
-    return {};
-  for (auto& shot : shots_) {
-    if (Status s = shot->set_plain(false); !s.ok()) return s;
-  }
+  if (!tools_.plain_mesh || sequence_.frame_count() > kShort * shots_.size()) return {};
+  Settings settings = best_.settings;
+  for (ShotSettings& s : settings) s.plain = false;
   Attempt a;
-  if (Status s = attempt(best_.q, a); !s.ok()) return s;
+  if (Status s = attempt(settings, best_.q, a); !s.ok()) return s;
   const auto most = kSlowMeshShare * static_cast<double>(best_.bytes.size());
-  if (static_cast<double>(a.bytes.size()) < most) {
-    best_ = std::move(a);
-    return {};
-  }
-  for (auto& shot : shots_) {
-    if (Status s = shot->set_plain(true); !s.ok()) return s;
-  }
+  if (static_cast<double>(a.bytes.size()) < most) best_ = std::move(a);
   return {};
 }
 
 // Where neighbours tell a vertex' motion, the weights learn it. The motion model pays where pieces
 // move that have few neighbours each: with one connected surface, finding regions is not worth the
 // time, which is most of the encoder's.
-Status SequenceEncoder::choose_regions() {
-  if (options_.regions >= 0 || options_.profile == Profile::kThesis) return {};
-  const bool whole = std::all_of(shots_.begin(), shots_.end(), [](const auto& shot) {
-    return shot->largest_piece() > kWholeSurface;
+bool SequenceEncoder::regions_may_pay() const {
+  if (tools_.regions == RegionUse::kReebGraph) return false;
+  if (effort_.region_trials) return true;
+  if (tools_.regions == RegionUse::kThorough) return false;
+  return std::any_of(sequence_.shots.begin(), sequence_.shots.end(), [](const Shot& shot) {
+    return largest_piece(shot.connectivity) <= kWholeSurface;
   });
-  if (!effort_.region_trials && (options_.profile == Profile::kMain || whole)) return {};
-  uint32_t chosen = 0;
+}
+
+Status SequenceEncoder::choose_regions() {
+  if (options_.regions >= 0 || !regions_may_pay()) return {};
   for (const uint32_t candidate : kRegionCandidates) {
-    set_regions(candidate);
+    Settings settings = best_.settings;
+    for (ShotSettings& s : settings) s.regions = candidate;
     bool kept = false;
-    if (Status s = try_setting(kept); !s.ok()) return s;
+    if (Status s = try_settings(settings, kept); !s.ok()) return s;
     if (!kept) break;
-    chosen = candidate;
   }
-  set_regions(chosen);
   return {};
 }
 
 Status SequenceEncoder::choose_prior() {
-  const bool learns = options_.profile == Profile::kMain || options_.profile == Profile::kFast;
-  if (!learns || !effort_.weak_prior_trial) return {};
-  for (auto& shot : shots_) shot->set_weak_prior(true);
+  if (!tools_.learns || !effort_.weak_prior_trial) return {};
+  Settings settings = best_.settings;
+  for (ShotSettings& s : settings) s.weak_prior = true;
   bool kept = false;
-  if (Status s = try_setting(kept); !s.ok()) return s;
-  for (auto& shot : shots_) shot->set_weak_prior(kept);
-  return {};
+  return try_settings(settings, kept);
 }
 
 ErrorSums SequenceEncoder::measure(const Attempt& a) const {
   ErrorSums sums;
   for (size_t i = 0; i < shots_.size(); ++i) {
-    const ErrorSums shot = shots_[i]->measure(a.shots[i]);
-    sums.squared += shot.squared;
-    sums.largest = std::max(sums.largest, shot.largest);
+    sums.add(shots_[i]->measure(a.shots[i]));
   }
   return sums;
 }
@@ -355,9 +357,9 @@ EncodeStats SequenceEncoder::stats() const {
   out.kg = kg_of(sums.squared);
   out.rmse = std::sqrt(sums.squared / vertex_frames_);
   out.max_error = sums.largest;
-  for (const auto& shot : shots_) {
-    if (shot->regions() > 0)
-      out.notes.push_back("motion model with " + std::to_string(shot->regions()) + " regions");
+  for (const CodedShot& shot : best_.shots) {
+    if (shot.regions > 0)
+      out.notes.push_back("motion model with " + std::to_string(shot.regions) + " regions");
   }
   return out;
 }
@@ -368,38 +370,39 @@ double SequenceEncoder::first_error() const {
   return bounded() ? options_.target_value / kBoundPerError : kGuessedPrecision * extent;
 }
 
+SequenceEncoder::Settings SequenceEncoder::first_settings() const {
+  ShotSettings common = {.plain = tools_.plain_mesh, .components = {}};
+  if (options_.regions > 0) common.regions = static_cast<uint32_t>(options_.regions);
+  if (options_.regions < 0 && tools_.regions == RegionUse::kReebGraph)
+    common.regions = ShotSettings::kReebRegions;
+  return with_grids(Settings(shots_.size(), common), first_error());
+}
+
 Status SequenceEncoder::start() {
+  Settings settings = first_settings();
   if (bounded()) {
     const auto frames = static_cast<double>(sequence_.frame_count());
-    return attempt(energy_ > 0 ? 2 * first_error() * std::sqrt(frames) : kAnyStep, best_);
+    const double q = energy_ > 0 ? 2 * first_error() * std::sqrt(frames) : kAnyStep;
+    return attempt(settings, q, best_);
   }
-  double q = guess_step();
+  if (Status s = prepare(settings); !s.ok()) return s;
+  double q = guess_step(settings);
   if (!is_error(options_.target)) {
     // Grids that suit the error which that size leads to leave more, or less, to the rest.
-    const double error = std::sqrt(expect(q).distortion / (3 * vertex_frames_));
-    if (Status s = set_grids(error); !s.ok()) return s;
-    q = guess_step();
+    const double error = std::sqrt(expect(settings, q).distortion / (3 * vertex_frames_));
+    settings = with_grids(settings, error);
+    if (Status s = prepare(settings); !s.ok()) return s;
+    q = guess_step(settings);
   }
-  return attempt(q, best_);
+  return attempt(settings, q, best_);
 }
 
 Status SequenceEncoder::suit_grids() {
-  std::vector<uint32_t> before;
-  for (const auto& shot : shots_) before.push_back(shot->grid_bits());
-  if (Status s = set_grids(coordinate_error()); !s.ok()) return s;
-  for (size_t i = 0; i < shots_.size(); ++i) {
-    if (shots_[i]->grid_bits() != before[i]) return attempt(best_.q, best_);
-  }
-  return {};
+  const Settings settings = with_grids(best_.settings, coordinate_error());
+  return settings == best_.settings ? Status() : attempt(settings, best_.q, best_);
 }
 
 Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
-  if (Status s = set_grids(first_error()); !s.ok()) return s;
-  if (options_.regions > 0) set_regions(static_cast<uint32_t>(options_.regions));
-  if (options_.regions < 0 && options_.profile == Profile::kThesis) {
-    for (auto& shot : shots_) shot->set_reeb_regions();
-  }
-
   if (Status s = start(); !s.ok()) return s;
   if (bounded()) {
     if (Status s = search_base(); !s.ok()) return s;

@@ -15,8 +15,9 @@ namespace reeb {
 
 /// One encoding of the whole sequence with one quantization step.
 struct Attempt {
+  std::vector<ShotSettings> settings;  ///< of each shot
   double q = 0;
-  std::vector<std::vector<CodedGroup>> shots;
+  std::vector<CodedShot> shots;
   std::vector<uint8_t> bytes;  ///< the file
   double squared_error = 0;    ///< over all vertices, frames and axes
   double excess = 0;           ///< ln(measured / wanted): above 0 the target is missed
@@ -30,16 +31,22 @@ class SequenceEncoder {
   Status run(std::vector<uint8_t>& out, EncodeStats& stats);
 
  private:
-  /// An attempt with the current grids and regions.
-  Status attempt(double q, Attempt& out);
+  using Settings = std::vector<ShotSettings>;
+
+  Settings first_settings() const;
+  /// The settings with reference grids that suit an RMS error of `error` per coordinate.
+  Settings with_grids(Settings settings, double error) const;
+  Status attempt(const Settings& settings, double q, Attempt& out);
+  /// Makes the reference meshes that `expect` counts on.
+  Status prepare(const Settings& settings);
   double kg_of(double squared_error) const;
   double bytes_per_unit() const;  ///< of the target, a size
   double excess_of(const Attempt& a) const;
   ErrorSums measure(const Attempt& a) const;
   EncodeStats stats() const;
 
-  /// From `best_` on, finds the step that meets the target with the current settings: ln(measured /
-  /// wanted) within [slack - tolerance, slack]. The result is in `best_`.
+  /// From `best_` on, finds the step that meets the target with its settings: ln(measured / wanted)
+  /// within [slack - tolerance, slack]. The result is in `best_`.
   Status search(double slack, double tolerance, int max_trials);
   /// The last search, for real.
   Status finish_search();
@@ -50,11 +57,11 @@ class SequenceEncoder {
   /// Keeps the numbers of components of `best_`, or lets them go.
   void hold_components(bool held);
   /// Bits and squared error to expect.
-  RatePoint expect(double q) const;
+  RatePoint expect(const Settings& settings, double q) const;
   /// |d ln(measured) / d ln q| to expect; 0 where there is nothing to go by.
-  double expected_slope(double q) const;
+  double expected_slope(const Settings& settings, double q) const;
   /// Step at which the target is to be expected.
-  double guess_step() const;
+  double guess_step(const Settings& settings) const;
   /// Error of a coordinate that the target makes likely, before anything is known of the motion.
   double first_error() const;
   /// The first attempt.
@@ -66,13 +73,12 @@ class SequenceEncoder {
   bool bounded() const { return options_.target == Target::kMaxError; }
   Status refine_grids();
   Status choose_meshes();
+  bool regions_may_pay() const;
   Status choose_regions();
   Status choose_prior();
-  /// Tries a setting at the step of `best_`; keeps it where it pays and returns whether it did.
-  Status try_setting(bool& kept);
+  /// Tries settings at the step of `best_`, and keeps them there where they pay.
+  Status try_settings(const Settings& settings, bool& kept);
 
-  Status set_grids(double coordinate_error);
-  void set_regions(uint32_t count);
   double coordinate_error() const;
   double least_step() const;
   bool advance(double part);
@@ -80,6 +86,7 @@ class SequenceEncoder {
   const Sequence& sequence_;
   const EncodeOptions& options_;
   const EffortPreset& effort_;
+  const ProfileTools& tools_;
   std::vector<std::unique_ptr<ShotEncoder>> shots_;
   double energy_ = 0;
   double vertex_frames_ = 0;

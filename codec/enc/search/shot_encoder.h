@@ -1,4 +1,4 @@
-// Encoder of one shot: its reference mesh, its groups, and the settings that a trial may change.
+// Encoder of one shot: its reference mesh and its groups.
 #pragma once
 
 #include <memory>
@@ -7,102 +7,116 @@
 #include "bitstream/container.h"
 #include "codec/enc/encoder.h"
 #include "codec/enc/fields/group_encoder.h"
+#include "codec/enc/search/error_sums.h"
+#include "codec/enc/search/profile_tools.h"
 #include "segmentation/motion.h"
 
 namespace reeb {
 
-/// Sums over decoded frames.
-struct ErrorSums {
-  double squared = 0;  ///< of the distances of the vertices from where the input has them
-  double largest = 0;  ///< of a coordinate
+/// How a shot is coded: all that a trial may change, but the step.
+struct ShotSettings {
+  static constexpr uint32_t kReebRegions = UINT32_MAX;
+
+  uint32_t grid_bits = 0;  ///< of the reference mesh: kMinGridBits .. kMaxGridBits
+  bool plain = false;      ///< the reference mesh is; only where the profile allows it
+  /// Of the motion model, or as many as the shape allows; 0 = none; kReebRegions = those of the
+  /// Reeb graph as they are.
+  uint32_t regions = 0;
+  bool weak_prior = false;           ///< see GroupSettings
+  std::vector<uint32_t> components;  ///< sent by each group; empty = as many as pay
+
+  bool operator==(const ShotSettings&) const = default;
+};
+
+/// One encoding of a shot.
+struct CodedShot {
+  std::shared_ptr<const SurfaceContext> surface;
+  std::vector<CodedGroup> groups;
+  uint32_t regions = 0;  ///< of the motion model
 };
 
 class ShotEncoder {
  public:
+  static constexpr uint32_t kMinGridBits = 9, kMaxGridBits = 16;
+
   /// `shot` must outlive the encoder; `first_frame` is its place in the sequence.
   ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
               unsigned threads);
 
-  /// Codes the reference mesh on the grid that suits an RMS error of `error` per coordinate (world
-  /// units).
-  Status set_grid(double error);
-  /// Bits of that grid before rounding, 9 to 16.
+  /// Bits of the grid that suits an RMS error of `error` per coordinate (world units), before
+  /// rounding.
   double best_grid_bits(double error) const;
-  uint32_t grid_bits() const { return grid_bits_; }
-  Status set_grid_bits(uint32_t bits);
 
-  /// Fast profile: whether the reference mesh is plain, which it is at first.
-  Status set_plain(bool plain);
+  /// Codes the reference mesh. Only the last one, and those of codings that are still around, are
+  /// kept.
+  Status prepare(const ShotSettings& settings);
 
-  /// The share of the vertices in the largest connected piece of the mesh.
-  double largest_piece() const;
-
-  /// Gives the motion model `count` regions, or as many as the shape allows; 0 for none.
-  void set_regions(uint32_t count);
-  /// Gives the motion model the regions of the Reeb graph as they are.
-  void set_reeb_regions();
-  uint32_t regions() const { return regions_; }
-
-  /// Bits and squared error to expect at quantization step q, roughly.
-  RatePoint expect(double q);
-
-  /// From now on every group sends as many components as in `coded`; empty = as many as pay.
-  void hold_components(const std::vector<CodedGroup>& coded);
-
-  /// Lets weights go further from what distances tell.
-  void set_weak_prior(bool weak_prior);
+  /// Bits and squared error to expect at quantization step q, roughly. The settings were prepared.
+  RatePoint expect(const ShotSettings& settings, double q);
 
   /// Encodes every group with quantization step q.
-  std::vector<CodedGroup> encode(double q);
+  Status encode(const ShotSettings& settings, double q, CodedShot& out);
 
   /// Appends the reference mesh and the groups.
-  Status write(uint32_t shot_index, const std::vector<CodedGroup>& coded,
-               ContainerWriter& writer) const;
+  Status write(uint32_t shot_index, const CodedShot& coded, ContainerWriter& writer) const;
 
   /// Compares what the decoder will have, to the bit, with the input.
-  ErrorSums measure(const std::vector<CodedGroup>& coded) const;
+  ErrorSums measure(const CodedShot& coded) const;
 
   double energy() const {
     return energy_;
   }  ///< sum of squares about the mean of each frame and axis
   double largest_coefficient() const { return largest_; }  ///< bound on any, world units
   double vertex_frames() const;                            ///< vertices times frames
-  double longest_side() const;                             ///< of the first frame's bounding box
+  double longest_side() const { return longest_side_; }    ///< of the first frame's bounding box
 
  private:
   struct Group {
     uint32_t first_frame;  ///< in the shot
     std::unique_ptr<GroupEncoder> encoder;
-    std::unique_ptr<MotionFit> motion;
   };
+  using SharedSurface = std::shared_ptr<const SurfaceContext>;
+  struct MadeSurface {
+    uint32_t grid_bits;
+    bool plain;
+    std::weak_ptr<const SurfaceContext> surface;
+  };
+  /// The motion of all groups, fitted on a surface.
+  struct Motion {
+    SharedSurface surface;
+    uint32_t wanted = 0;  ///< regions, as in the settings
+    uint32_t regions = 0;
+    std::vector<std::unique_ptr<MotionFit>> fits;  ///< of each group; empty where none is used
+  };
+
   /// True where group i starts from what the one before has learned.
-  bool continues(uint32_t i) const {
-    return profile_ == Profile::kMain && i % (open_groups_ + 1) != 0;
-  }
-  void fit_motion();
+  bool continues(uint32_t i) const { return i % (open_groups_ + 1) != 0; }
+  GroupSettings group_settings(const ShotSettings& settings, double q, size_t group) const;
+  GroupHeader header_of(const CodedGroup& coded, uint32_t group) const;
+  void fit_motion(uint32_t wanted);
+  std::vector<uint32_t> find_regions(uint32_t wanted, uint32_t& count);
   void correct(const Group& group, CodedGroup& coded) const;
-  void segment_reference();
 
   const Shot& shot_;
   ReferencePlan plan_;
   uint32_t first_frame_;
   bool reorder_;
   Profile profile_;
-  bool plain_;
   double bound_;  ///< on the error of every coordinate, world units; 0 = none
   uint32_t open_groups_;
-  uint32_t grid_bits_ = 0;
-  uint32_t regions_ = 0;
-  SurfaceContext surface_;
-  uint32_t spare_bits_ = 0;
-  SurfaceContext spare_;  ///< the grid before, which a trial may return to
   std::vector<Group> groups_;
+  std::vector<MadeSurface> made_;
+  SharedSurface surface_;                               ///< prepared last
+  Motion motion_;                                       ///< fitted last
   std::vector<uint32_t> triangles_;                     ///< of the input; made with the next two
   std::unique_ptr<segmentation::Result> reeb_regions_;  ///< when first needed
   std::unique_ptr<segmentation::MotionPartitions> partitions_;
-  std::vector<uint32_t> labels_;  ///< region of each vertex of the input
   double energy_ = 0;
   double largest_ = 0;
+  double longest_side_ = 0;
 };
+
+/// The share of the vertices in the largest connected piece of a mesh.
+double largest_piece(const Connectivity& mesh);
 
 }  // namespace reeb

@@ -6,6 +6,7 @@
 
 #include "codec/common/lossless/number_set.h"
 #include "codec/enc/lossless/lossless_sequence.h"
+#include "codec/enc/search/error_sums.h"
 #include "codec/enc/search/sequence_summary.h"
 
 namespace reeb {
@@ -14,12 +15,6 @@ namespace {
 
 // Of twice the bound: leaves room for rounding a multiple to binary32.
 constexpr double kStepShare = 1 - 1.0 / 1024;
-
-struct ErrorFigures {
-  double squared = 0;  ///< sum over all coordinates
-  double energy = 0;   ///< of the original about the mean of each frame and axis
-  double largest = 0;
-};
 
 /// Moves each coordinate to the multiple next to it; those that it would miss stay.
 void snap(Shot& shot, const NumberSet& multiples, double bound) {
@@ -31,18 +26,17 @@ void snap(Shot& shot, const NumberSet& multiples, double bound) {
   }
 }
 
-void measure(std::span<const float> original, std::span<const float> snapped, ErrorFigures& out) {
+/// Sum of squares of a frame about the mean of each axis.
+double energy_of(std::span<const float> frame) {
   std::array<double, 3> mean{};
-  for (size_t i = 0; i < original.size(); ++i) mean[i % 3] += static_cast<double>(original[i]);
-  const size_t vertices = original.size() / 3;
-  for (double& m : mean) m /= static_cast<double>(vertices);
-  for (size_t i = 0; i < original.size(); ++i) {
-    const auto x = static_cast<double>(original[i]);
-    const double error = std::abs(x - static_cast<double>(snapped[i]));
-    out.squared += error * error;
-    out.largest = std::max(out.largest, error);
-    out.energy += (x - mean[i % 3]) * (x - mean[i % 3]);
+  for (size_t i = 0; i < frame.size(); ++i) mean[i % 3] += static_cast<double>(frame[i]);
+  for (double& m : mean) m /= static_cast<double>(frame.size() / 3);
+  double energy = 0;
+  for (size_t i = 0; i < frame.size(); ++i) {
+    const double d = static_cast<double>(frame[i]) - mean[i % 3];
+    energy += d * d;
   }
+  return energy;
 }
 
 }  // namespace
@@ -52,15 +46,18 @@ Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
   const double step = 2 * options.target_value * kStepShare;
   const NumberSet multiples = NumberSet::multiples(step);
   Sequence snapped = sequence;
-  ErrorFigures errors;
+  ErrorSums errors;
+  double energy = 0;
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     const Shot& shot = sequence.shots[i];
     snap(snapped.shots[i], multiples, options.target_value);
-    for (uint32_t t = 0; t < shot.frame_count; ++t)
-      measure(shot.frame(t), snapped.shots[i].frame(t), errors);
+    for (uint32_t t = 0; t < shot.frame_count; ++t) {
+      errors.add(shot.frame(t), snapped.shots[i].frame(t));
+      energy += energy_of(shot.frame(t));
+    }
   }
   if (Status s = encode_lossless(snapped, options, step, out, stats); !s.ok()) return s;
-  stats.kg = errors.energy > 0 ? 100 * std::sqrt(errors.squared / errors.energy) : 0;
+  stats.kg = energy > 0 ? 100 * std::sqrt(errors.squared / energy) : 0;
   stats.rmse = std::sqrt(errors.squared / vertex_frames_of(sequence));
   stats.max_error = errors.largest;
   return {};

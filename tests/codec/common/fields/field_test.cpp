@@ -51,8 +51,15 @@ struct Coded {
   double squared_error = 0;
 };
 
-Coded encode(const Surface& s, const Planes& targets, Profile profile, double lambda) {
-  Field field(s.graph.graph, surface_field_options(profile), 1);
+/// Weights stay those of the reference mesh.
+FieldOptions reference_weights() {
+  FieldOptions options = surface_field_options();
+  options.adaptive = false;
+  return options;
+}
+
+Coded encode(const Surface& s, const Planes& targets, const FieldOptions& options, double lambda) {
+  Field field(s.graph.graph, options, 1);
   field.learn_reference(GridPoints(s.xyz), s.graph.order);
   FieldEncoder encoder(field, s.graph.graph, lambda, 0);
   Coded out;
@@ -62,9 +69,9 @@ Coded encode(const Surface& s, const Planes& targets, Profile profile, double la
   return out;
 }
 
-Planes decode(const Surface& s, const std::vector<uint8_t>& bytes, size_t count, Profile profile,
-              unsigned threads) {
-  Field field(s.graph.graph, surface_field_options(profile), threads);
+Planes decode(const Surface& s, const std::vector<uint8_t>& bytes, size_t count,
+              const FieldOptions& options, unsigned threads) {
+  Field field(s.graph.graph, options, threads);
   field.learn_reference(GridPoints(s.xyz), s.graph.order);
   BinaryDecoder decoder(bytes);
   for (size_t k = 0; k < count; ++k) {
@@ -94,10 +101,11 @@ TEST_CASE("a field decodes to the bits that its encoder kept", "[field]") {
     INFO(shape.name);
     const Surface s(shape);
     const Planes targets = waves(shape, s.graph.order, 7, 50);
-    for (const Profile profile : {Profile::kMain, Profile::kFast, Profile::kThesis}) {
-      const Coded coded = encode(s, targets, profile, 0.1);
+    for (const FieldOptions& options :
+         {surface_field_options(), reference_weights(), unpredicted_field_options()}) {
+      const Coded coded = encode(s, targets, options, 0.1);
       for (const unsigned threads : {1u, 3u}) {
-        const Planes decoded = decode(s, coded.bytes, targets.size(), profile, threads);
+        const Planes decoded = decode(s, coded.bytes, targets.size(), options, threads);
         REQUIRE(decoded.size() == targets.size());
         for (size_t k = 0; k < decoded.size(); ++k) CHECK(same_bits(decoded[k], coded.planes[k]));
       }
@@ -109,7 +117,7 @@ TEST_CASE("without rate every value comes back to half its step", "[field]") {
   const Shape shape = torus(20, 15);
   const Surface s(shape);
   const Planes targets = waves(shape, s.graph.order, 5, 200);
-  const Coded coded = encode(s, targets, Profile::kMain, 0);
+  const Coded coded = encode(s, targets, surface_field_options(), 0);
   for (size_t k = 0; k < targets.size(); ++k) {
     for (uint32_t r = 0; r < targets[k].size(); ++r) {
       const double step = kStepTable[s.graph.graph.step_level[r]] / 65536.0;
@@ -125,8 +133,8 @@ TEST_CASE("a higher price of bits gives fewer bytes and more error", "[field]") 
   const Shape shape = torus(20, 15);
   const Surface s(shape);
   const Planes targets = waves(shape, s.graph.order, 5, 20);
-  const Coded dear = encode(s, targets, Profile::kMain, 0.3),
-              cheap = encode(s, targets, Profile::kMain, 0);
+  const Coded dear = encode(s, targets, surface_field_options(), 0.3),
+              cheap = encode(s, targets, surface_field_options(), 0);
   CHECK(dear.bytes.size() < cheap.bytes.size());
   CHECK(dear.squared_error > cheap.squared_error);
   CHECK(dear.squared_error == Approx(sum_of_squares(targets, dear.planes)));
@@ -136,8 +144,8 @@ TEST_CASE("learning weights pays on components that move alike", "[field]") {
   const Shape shape = torus(30, 20);
   const Surface s(shape);
   const Planes targets = waves(shape, s.graph.order, 12, 300);
-  CHECK(encode(s, targets, Profile::kMain, 0.1).bytes.size() <
-        encode(s, targets, Profile::kFast, 0.1).bytes.size());
+  CHECK(encode(s, targets, surface_field_options(), 0.1).bytes.size() <
+        encode(s, targets, reference_weights(), 0.1).bytes.size());
 }
 
 TEST_CASE("values far beyond the unary code survive", "[field]") {
@@ -147,8 +155,8 @@ TEST_CASE("values far beyond the unary code survive", "[field]") {
   targets[0][5] = 3e6f;
   targets[1][47] = -9e6f;
   targets[2].assign(48, 1e6f);
-  const Coded coded = encode(s, targets, Profile::kMain, 0);
-  const Planes decoded = decode(s, coded.bytes, 3, Profile::kMain, 1);
+  const Coded coded = encode(s, targets, surface_field_options(), 0);
+  const Planes decoded = decode(s, coded.bytes, 3, surface_field_options(), 1);
   for (size_t k = 0; k < 3; ++k) CHECK(same_bits(decoded[k], coded.planes[k]));
   CHECK(decoded[1][47] == Approx(-9e6f).margin(1));
 }
@@ -160,8 +168,8 @@ TEST_CASE("values beyond any unit come back to the precision of binary32", "[fie
   targets[0][0] = 3.3333333e14f;
   targets[1][47] = -1.234567e12f;
   for (size_t r = 0; r < 48; ++r) targets[2][r] = static_cast<float>(1e13 + 1e12 * std::sin(r));
-  const Coded coded = encode(s, targets, Profile::kMain, 0.1);
-  const Planes decoded = decode(s, coded.bytes, 4, Profile::kMain, 1);
+  const Coded coded = encode(s, targets, surface_field_options(), 0.1);
+  const Planes decoded = decode(s, coded.bytes, 4, surface_field_options(), 1);
   for (size_t k = 0; k < 4; ++k) {
     CHECK(same_bits(decoded[k], coded.planes[k]));
     for (size_t r = 0; r < 48; ++r)

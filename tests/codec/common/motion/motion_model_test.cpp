@@ -6,7 +6,7 @@
 
 #include "codec/common/motion/motion_syntax.h"
 #include "codec/enc/fields/group_signal.h"
-#include "codec/enc/fields/transform_encoder.h"
+#include "codec/enc/fields/main_group_encoder.h"
 #include "codec/enc/motion/motion_fit.h"
 #include "codec/enc/reference/surface_context.h"
 #include "entropy/range_coder.h"
@@ -157,7 +157,7 @@ TEST_CASE("rigidly moving parts are predicted to the step of their transforms", 
   SurfaceContext surface;
   ReferencePlan plan(shot.connectivity);
   REQUIRE(make_surface_context(shot, plan, 16, {}, surface).ok());
-  TransformEncoder encoder(make_group_signal(shot, 0, 15), Profile::kMain, 1);
+  MainGroupEncoder encoder(make_group_signal(shot, 0, 15), 1);
   const Eigen::MatrixXf targets = encoder.motion_targets(surface);
   std::vector<uint32_t> labels;
   for (size_t i = 0; i < shape.positions.size(); i += 3)

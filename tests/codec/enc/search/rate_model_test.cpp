@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "codec/enc/fields/transform_encoder.h"
+#include "codec/enc/search/profile_tools.h"
 #include "tests/codec/shapes.h"
 
 using namespace reeb;
@@ -19,18 +19,22 @@ void wave(const float* rest, double time, double* xyz) {
   }
 }
 
+GroupSettings at(double q, std::optional<uint32_t> components = {}) {
+  return {.q = q, .weak_prior = false, .components = components};
+}
+
 struct Group {
   explicit Group(Profile profile)
       : shot(animate(torus(40, 24), 24, wave)),
         plan(shot.connectivity),
-        encoder(make_group_encoder(make_group_signal(shot, 0, 24), profile, 1)) {
+        encoder(tools_of(profile).make_encoder(make_group_signal(shot, 0, 24), 1)) {
     const bool fast = profile == Profile::kFast;
-    const ReferenceOptions options{.plain = fast, .lanes = fast};
+    const ReferenceOptions options{.plain = fast};
     REQUIRE(make_surface_context(shot, plan, 12, options, surface).ok());
   }
   CodedGroup encode(double q) {
     GroupRun run;
-    return encoder->encode(surface, q, nullptr, run);
+    return encoder->encode(surface, at(q), nullptr, run);
   }
   Shot shot;
   ReferencePlan plan;
@@ -44,7 +48,7 @@ TEST_CASE("what is expected of a group is about what comes", "[rate_model]") {
   for (const Profile profile : {Profile::kMain, Profile::kFast}) {
     Group group(profile);
     for (const double q : {0.3, 0.05, 0.008}) {
-      const RatePoint expected = group.encoder->expect(group.surface, q);
+      const RatePoint expected = group.encoder->expect(group.surface, at(q));
       const CodedGroup coded = group.encode(q);
       const auto bytes = static_cast<double>(coded.coefficients.size() + coded.basis.size());
       INFO("profile " << static_cast<int>(profile) << ", q " << q);
@@ -56,9 +60,9 @@ TEST_CASE("what is expected of a group is about what comes", "[rate_model]") {
 
 TEST_CASE("what is expected falls and grows with the step", "[rate_model]") {
   Group group(Profile::kMain);
-  RatePoint before = group.encoder->expect(group.surface, 1e-3);
+  RatePoint before = group.encoder->expect(group.surface, at(1e-3));
   for (double q = 1.5e-3; q < 2; q *= 1.5) {
-    const RatePoint point = group.encoder->expect(group.surface, q);
+    const RatePoint point = group.encoder->expect(group.surface, at(q));
     CHECK(point.bits < before.bits);
     CHECK(point.distortion > before.distortion);
     before = point;
@@ -67,13 +71,11 @@ TEST_CASE("what is expected falls and grows with the step", "[rate_model]") {
 
 TEST_CASE("held components are what is expected to be sent", "[rate_model]") {
   Group group(Profile::kMain);
-  const RatePoint all = group.encoder->expect(group.surface, 0.01);
-  group.encoder->hold_components(2);
-  const RatePoint two = group.encoder->expect(group.surface, 0.01);
+  const RatePoint all = group.encoder->expect(group.surface, at(0.01));
+  const RatePoint two = group.encoder->expect(group.surface, at(0.01, 2));
   CHECK(two.bits < all.bits);
   CHECK(two.distortion > all.distortion);
-  group.encoder->hold_components(0);
-  const RatePoint none = group.encoder->expect(group.surface, 0.01);
+  const RatePoint none = group.encoder->expect(group.surface, at(0.01, 0));
   CHECK(none.bits == 0);
   CHECK(none.distortion == Approx(group.encoder->signal().energy).epsilon(1e-3));
 }

@@ -9,14 +9,7 @@ using namespace reeb::test;
 
 namespace {
 
-double largest_piece(const Shape& shape) {
-  const Shot shot = animate(shape, 3);
-  EncodeOptions options;
-  options.profile = Profile::kFast;
-  ShotEncoder encoder(shot, 0, options, 1);
-  REQUIRE(encoder.set_grid_bits(10).ok());
-  return encoder.largest_piece();
-}
+double largest_piece(const Shape& shape) { return reeb::largest_piece(shape.connectivity); }
 
 }  // namespace
 

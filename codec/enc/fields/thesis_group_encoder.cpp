@@ -1,4 +1,4 @@
-#include "codec/enc/fields/thesis_encoder.h"
+#include "codec/enc/fields/thesis_group_encoder.h"
 
 #include <cmath>
 
@@ -15,14 +15,15 @@ double slope_at(double step) { return step * step * std::log(2.0) / 6; }
 
 }  // namespace
 
-RatePoint ThesisEncoder::expect(const SurfaceContext&, double q) {
+RatePoint ThesisGroupEncoder::expect(const SurfaceContext&, const GroupSettings& settings) {
+  const double q = settings.q;
   const auto values = static_cast<double>(signal_.trajectories.size());
   const double scale = std::sqrt(signal_.energy / values / 2);
   const RatePoint point = quantized_laplace_source(scale, q);
   return {values * point.bits, std::min(signal_.energy, values * q * q / 12)};
 }
 
-Eigen::MatrixXf ThesisEncoder::motion_targets(const SurfaceContext& surface) {
+Eigen::MatrixXf ThesisGroupEncoder::motion_targets(const SurfaceContext& surface) {
   Eigen::MatrixXf out(surface.rows(), signal_.trajectories.cols());
   for (Eigen::Index c = 0; c < out.cols(); ++c) {
     const double offset = signal_.mean[c] - static_cast<double>(surface.header.origin[c % 3]);
@@ -34,8 +35,8 @@ Eigen::MatrixXf ThesisEncoder::motion_targets(const SurfaceContext& surface) {
   return out;
 }
 
-void ThesisEncoder::choose_steps(const Eigen::MatrixXf& targets, const MotionFit* motion,
-                                 CodedGroup& out) const {
+void ThesisGroupEncoder::choose_steps(const Eigen::MatrixXf& targets, const MotionFit* motion,
+                                      CodedGroup& out) const {
   double spread[3] = {0, 0, 0};  // mean absolute residual of each coordinate
   MotionModel model;
   if (motion != nullptr)
@@ -55,18 +56,18 @@ void ThesisEncoder::choose_steps(const Eigen::MatrixXf& targets, const MotionFit
   }
 }
 
-CodedGroup ThesisEncoder::encode(const SurfaceContext& surface, double q, const MotionFit* motion,
-                                 GroupRun&) {
+CodedGroup ThesisGroupEncoder::encode(const SurfaceContext& surface, const GroupSettings& settings,
+                                      const MotionFit* motion, GroupRun&) {
   CodedGroup out;
-  out.q = static_cast<double>(static_cast<float>(q));
-  for (float& step : out.axis_step) step = static_cast<float>(q);
+  for (float& step : out.axis_step) step = static_cast<float>(settings.q);
+  out.q = static_cast<double>(out.axis_step[0]);
   const Eigen::MatrixXf targets = motion_targets(surface);
   choose_steps(targets, motion, out);
   out.component_count = static_cast<uint32_t>(targets.cols());
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, out.component_count);
 
-  Field field(surface.surface.graph, surface_field_options(Profile::kThesis), threads_);
+  Field field(surface.surface.graph, unpredicted_field_options(), threads_);
   FieldEncoder encoder(field, surface.surface.graph, 0, 0);
   std::vector<float> target(surface.rows());
   for (uint32_t k = 0; k < out.component_count; ++k) {

@@ -11,9 +11,9 @@ namespace reeb {
 
 struct LosslessGroup {
   uint32_t frame_count = 0;
-  uint32_t stored_count = 0;          ///< frames that are not copies
-  std::vector<uint8_t> coefficients;  ///< range code
-  std::vector<uint8_t> basis;         ///< bits at even odds
+  uint32_t stored_count = 0;         ///< frames that are not copies
+  std::vector<uint8_t> differences;  ///< range code
+  std::vector<uint8_t> raw;          ///< bits at even odds
 };
 
 struct LosslessMethod {

@@ -1,4 +1,4 @@
-#include "codec/enc/fields/fast_encoder.h"
+#include "codec/enc/fields/fast_group_encoder.h"
 
 #include <algorithm>
 
@@ -32,10 +32,11 @@ LaneField::Planes code_twice(const PredictionGraph& graph, Start start, double l
 
 }  // namespace
 
-GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surface,
-                                                      const MotionFit* motion, GroupRun& /*run*/,
-                                                      CodedGroup& out) {
-  const uint32_t most = most_components();
+GroupEncoder::Planes FastGroupEncoder::encode_coefficients(const SurfaceContext& surface,
+                                                           const GroupSettings& settings,
+                                                           const MotionFit* motion,
+                                                           GroupRun& /*run*/, CodedGroup& out) {
+  const uint32_t most = most_components(settings);
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
   const auto code = [&](LaneFieldEncoder& encoder) {
@@ -52,21 +53,21 @@ GroupEncoder::Planes FastEncoder::encode_coefficients(const SurfaceContext& surf
       }
       const std::vector<CodedComponent> coded = encoder.code_block(targets);
       for (uint32_t l = 0; l < lanes && more; ++l)
-        more = stop.add(energy[l], coded[l].error, coded[l].bits) || held_count_;
+        more = stop.add(energy[l], coded[l].error, coded[l].bits) || settings.components;
     }
-    return held_count_ ? most : stop.best();
+    return settings.components ? most : stop.best();
   };
   const PredictionGraph& graph = surface.surface.graph;
   Planes planes = code_twice(
-      graph, [&] { return LaneField(graph, surface.lanes, weak_prior_); }, kCoefficientLambda,
-      kMassExponent, code, out.coefficients);
+      graph, [&] { return LaneField(graph, surface.surface.lanes(), settings.weak_prior); },
+      kCoefficientLambda, kMassExponent, code, out.coefficients);
   out.component_count = static_cast<uint32_t>(planes.size());
-  out.weak_prior = weak_prior_;
+  out.weak_prior = settings.weak_prior;
   return planes;
 }
 
-GroupEncoder::Planes FastEncoder::code_basis(const std::vector<std::vector<float>>& targets,
-                                             MagnitudeModel& /*contexts*/, CodedGroup& out) {
+GroupEncoder::Planes FastGroupEncoder::code_basis(const Planes& targets,
+                                                  MagnitudeModel& /*contexts*/, CodedGroup& out) {
   const auto count = static_cast<uint32_t>(targets.size());
   const auto code = [&](LaneFieldEncoder& encoder) {
     for (uint32_t k = 0, lanes = 0; k < count; k += lanes) {

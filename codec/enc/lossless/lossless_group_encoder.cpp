@@ -1,4 +1,4 @@
-#include "codec/enc/lossless/lossless_encoder.h"
+#include "codec/enc/lossless/lossless_group_encoder.h"
 
 #include "codec/common/lossless/lossless_syntax.h"
 #include "codec/common/lossless/surface_start.h"
@@ -17,8 +17,8 @@ LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFr
     sets[a] = method.step > 0 ? NumberSet::multiples(method.step) : choose_number_set(frames, a);
   code_number_sets(raw, sets);
   FrameCoder coder(surface.surface.graph,
-                   start_positions(surface.points(), surface.surface.order, surface.header.origin,
-                                   surface.header.grid_step),
+                   start_positions(surface.surface.points(), surface.surface.order,
+                                   surface.header.origin, surface.header.grid_step),
                    sets, method.quick, threads);
   RepeatSyntax repeats;
   std::vector<float> frame;

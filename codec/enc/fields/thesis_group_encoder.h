@@ -7,14 +7,14 @@
 
 namespace reeb {
 
-class ThesisEncoder : public GroupEncoder {
+class ThesisGroupEncoder : public GroupEncoder {
  public:
-  ThesisEncoder(GroupSignal signal, unsigned threads)
+  ThesisGroupEncoder(GroupSignal signal, unsigned threads)
       : GroupEncoder(std::move(signal)), threads_(threads) {}
 
-  CodedGroup encode(const SurfaceContext& surface, double q, const MotionFit* motion,
-                    GroupRun& run) override;
-  RatePoint expect(const SurfaceContext& surface, double q) override;
+  CodedGroup encode(const SurfaceContext& surface, const GroupSettings& settings,
+                    const MotionFit* motion, GroupRun& run) override;
+  RatePoint expect(const SurfaceContext& surface, const GroupSettings& settings) override;
   /// Positions less the origin, column 3 t + axis.
   Eigen::MatrixXf motion_targets(const SurfaceContext& surface) override;
 
