@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "bitstream/headers.h"
 #include "codec/common/base/float_state.h"
+#include "codec/common/base/largest_magnitude.h"
 #include "codec/enc/lossless/lossless_sequence.h"
+#include "codec/enc/search/lossless_offer.h"
 #include "codec/enc/search/profile_tools.h"
 #include "codec/enc/search/sequence_encoder.h"
 #include "codec/enc/search/snapped_sequence.h"
@@ -36,8 +39,9 @@ Status check_shot(const Shot& shot, bool lossless, size_t index) {
 Status check(const Sequence& sequence, const EncodeOptions& options) {
   if (sequence.shots.empty()) return Status::invalid("there is nothing to encode");
   const bool lossless = options.target == Target::kLossless;
-  if (!(options.target_value > 0) || !std::isfinite(options.target_value)) {
-    return Status::invalid("the target must be a number above 0");
+  if (!(options.target_value > 0 || (is_error(options.target) && options.target_value == 0)) ||
+      !std::isfinite(options.target_value)) {
+    return Status::invalid("the target must be a number above 0, or an error of 0");
   }
   if (options.group_length > kMaxGroupFrames) return Status::invalid("group_length is above 65536");
   if (options.effort < kMinEffort || options.effort > kMaxEffort) {
@@ -61,9 +65,7 @@ Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
                    std::vector<uint8_t>& out, EncodeStats& stats) {
   constexpr double kMinRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
   const double step = 2 * options.target_value;
-  if (!tools_of(options.profile).snaps || stats.bpvf < kMinRate ||
-      !(step < static_cast<double>(kLargestPosition)))
-    return {};
+  if (stats.bpvf < kMinRate || !(step < static_cast<double>(kLargestPosition))) return {};
   std::vector<uint8_t> other;
   EncodeStats other_stats;
   if (Status s = encode_snapped(sequence, options, other, other_stats); !s.ok()) return s;
@@ -71,6 +73,32 @@ Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
   out = std::move(other);
   stats = std::move(other_stats);
   return {};
+}
+
+/// False where all vertices of every frame are at one place: no error is relative to that.
+bool extends(const Sequence& sequence) {
+  for (const Shot& shot : sequence.shots) {
+    for (uint32_t t = 0; t < shot.frame_count; ++t) {
+      const std::span<const float> xyz = shot.frame(t);
+      for (size_t i = 3; i < xyz.size(); ++i) {
+        if (xyz[i] != xyz[i % 3]) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// An error so far below the precision of binary32 that nothing but a lossless coding is worth a
+/// try.
+bool wants_no_error(const Sequence& sequence, const EncodeOptions& options) {
+  if (!is_error(options.target)) return false;
+  if (!extends(sequence)) return true;
+  constexpr double kPrecision = 1.0 / (1 << 30);
+  if (options.target == Target::kKg) return options.target_value < 100 * kPrecision;
+  float largest = 0;
+  for (const Shot& shot : sequence.shots)
+    largest = std::max(largest, largest_magnitude(shot.positions));
+  return options.target_value <= static_cast<double>(largest) * kPrecision;
 }
 
 }  // namespace
@@ -81,10 +109,21 @@ Status encode(const Sequence& sequence, const EncodeOptions& options, std::vecto
   out.clear();
   stats = {};
   if (Status s = check(sequence, options); !s.ok()) return s;
-  if (options.target == Target::kLossless) return encode_lossless(sequence, options, 0, out, stats);
-  if (Status s = SequenceEncoder(sequence, options).run(out, stats); !s.ok()) return s;
-  return options.target == Target::kMaxError ? try_snapped(sequence, options, out, stats)
-                                             : Status();
+  if (options.target == Target::kLossless)
+    return encode_lossless(sequence, options, {}, out, stats);
+  bool missed = wants_no_error(sequence, options);
+  Status status;
+  if (!missed) status = SequenceEncoder(sequence, options).run(out, stats, missed);
+  if (missed && is_error(options.target)) {
+    status = encode_exactly(sequence, options, out, stats);
+    stats.notes.push_back("lossless coding, since the target is out of reach with a loss");
+    return status;
+  }
+  if (!status.ok() || !tools_of(options.profile).goes_lossless) return status;
+  if (options.target == Target::kMaxError) {
+    if (Status s = try_snapped(sequence, options, out, stats); !s.ok()) return s;
+  }
+  return offer_lossless(sequence, options, out, stats);
 }
 
 }  // namespace reeb

@@ -21,13 +21,18 @@ enum class Target {
   kLossless,  ///< every bit of every position; target_value, profile and regions do not matter
 };
 
+/// True of targets that are errors; their value may be 0, which codes without a loss.
+constexpr bool is_error(Target target) {
+  return target == Target::kKg || target == Target::kMaxError;
+}
+
 inline constexpr int kMinEffort = 1;
 inline constexpr int kDefaultEffort = 5;
 inline constexpr int kMaxEffort = 9;
 
 struct EncodeOptions {
   Target target = Target::kKg;
-  double target_value = 0.05;  ///< > 0; unit as the target says
+  double target_value = 0.05;  ///< > 0, an error also 0; unit as the target says
   uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
   /// Groups in a row, 0 .. 63, that may continue the group before: fewer bits, but a seek decodes
   /// the whole run; main profile only. 0 = every group decodes alone.
@@ -59,7 +64,8 @@ struct EncodeStats {
 };
 
 /// Encodes `sequence` (at least one frame and one vertex, all values finite and, unless lossless,
-/// below 1e36). On failure `out` is empty.
+/// below 1e36). Where that is smaller (main profile), or nothing else keeps the error, the coding
+/// is lossless whatever the target, which a note says. On failure `out` is empty.
 Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
               EncodeStats& stats);
 

@@ -25,13 +25,14 @@ Status push_frames(const Sequence& sequence, const EncodeOptions& options, Strea
 
 }  // namespace
 
-Status encode_lossless(const Sequence& sequence, const EncodeOptions& options, double step,
-                       std::vector<uint8_t>& out, EncodeStats& stats) {
+Status encode_lossless(const Sequence& sequence, const EncodeOptions& options,
+                       const LosslessOptions& lossless, std::vector<uint8_t>& out,
+                       EncodeStats& stats) {
   std::vector<uint8_t> bytes;
   StreamEncoder encoder({.group_length = options.group_length,
                          .reorder = options.reorder,
-                         .face_order = step == 0,
-                         .method = {options.effort <= kQuickEffort, step},
+                         .face_order = lossless.face_order,
+                         .method = {options.effort <= kQuickEffort, lossless.step},
                          .threads = options.threads},
                         [&](std::span<const uint8_t> part) {
                           bytes.insert(bytes.end(), part.begin(), part.end());

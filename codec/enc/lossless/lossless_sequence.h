@@ -8,9 +8,14 @@
 
 namespace reeb {
 
-/// As `encode`, whose pre-conditions hold, with Target::kLossless. `step`: nearly all coordinates
-/// are multiples of it; 0 where nothing is known.
-Status encode_lossless(const Sequence& sequence, const EncodeOptions& options, double step,
-                       std::vector<uint8_t>& out, EncodeStats& stats);
+struct LosslessOptions {
+  double step = 0;         ///< nearly all coordinates are multiples of it; 0 where nothing is known
+  bool face_order = true;  ///< faces come back in order, with their first corners
+};
+
+/// As `encode`, whose pre-conditions hold, with Target::kLossless.
+Status encode_lossless(const Sequence& sequence, const EncodeOptions& options,
+                       const LosslessOptions& lossless, std::vector<uint8_t>& out,
+                       EncodeStats& stats);
 
 }  // namespace reeb

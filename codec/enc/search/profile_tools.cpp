@@ -18,7 +18,7 @@ std::unique_ptr<GroupEncoder> make(GroupSignal signal, unsigned threads) {
 constexpr ProfileTools kMainTools = {.make_encoder = make<MainGroupEncoder>,
                                      .learns = true,
                                      .open_groups = true,
-                                     .snaps = true,
+                                     .goes_lossless = true,
                                      .regions = RegionUse::kThorough};
 constexpr ProfileTools kFastTools = {.make_encoder = make<FastGroupEncoder>,
                                      .plain_mesh = true,

@@ -20,7 +20,9 @@ struct ProfileTools {
   bool plain_mesh = false;   ///< the reference mesh is plain, unless another pays much better
   bool learns = false;       ///< weights, from a prior that may be weak
   bool open_groups = false;  ///< groups may continue each other
-  bool snaps = false;        ///< a bounded error may be met by moving coordinates to multiples
+  /// Where it is smaller, a bounded error is met by moving coordinates to multiples, and any target
+  /// by coding without a loss.
+  bool goes_lossless = false;
   RegionUse regions = RegionUse::kThorough;
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "codec/common/base/coding_tools.h"
@@ -17,7 +20,10 @@ constexpr double kGuessedPrecision =
     2e-4;                              ///< of the extent: error expected where the target is a size
 constexpr double kAnyStep = 1e-6;      ///< where nothing moves
 constexpr double kMaxSteps = 1 << 24;  ///< of a coefficient; binary32 keeps no more
-constexpr double kNear = 0.1;          ///< of the target, where settings are compared
+// Steps as headers hold them.
+constexpr double kMinStep = std::numeric_limits<float>::min();
+constexpr double kMaxStep = 1e37;
+constexpr double kNear = 0.1;  ///< of the target, where settings are compared
 // What an error measured in coefficients may fall short of the one of rounded positions; where that
 // does not do, a second search measures positions.
 constexpr double kRounding = 1.0005;
@@ -41,12 +47,12 @@ uint32_t grid_within(long bits) {
       std::clamp(bits, long{ShotEncoder::kMinGridBits}, long{ShotEncoder::kMaxGridBits}));
 }
 
-bool is_error(Target target) { return target == Target::kKg || target == Target::kMaxError; }
-
 /// The nearest that the search came to a target that it did not meet.
 Status unreachable(const EncodeStats& nearest) {
-  return Status::invalid("the target is out of reach; nearest: KG " + std::to_string(nearest.kg) +
-                         " %, largest error " + std::to_string(nearest.max_error) + ", " +
+  char errors[80];
+  std::snprintf(errors, sizeof errors, "KG %.4g %%, largest error %.4g", nearest.kg,
+                nearest.max_error);
+  return Status::invalid("the target is out of reach; nearest: " + std::string(errors) + ", " +
                          std::to_string(nearest.bytes) + " bytes");
 }
 
@@ -146,7 +152,7 @@ Status SequenceEncoder::search_base() {
   Status status;
   search_least(q0, kBaseRatio, effort_.base_trials, [&](double q) {
     Attempt a;
-    if (status.ok()) status = attempt(settings, q, a);
+    if (status.ok()) status = attempt(settings, std::max(q, least_step()), a);
     if (!status.ok()) return 0.0;
     const auto size = static_cast<double>(a.bytes.size());
     if (a.bytes.size() < best_.bytes.size()) best_ = std::move(a);
@@ -199,7 +205,7 @@ Status SequenceEncoder::polish() {
 double SequenceEncoder::least_step() const {
   double largest = 0;
   for (const auto& shot : shots_) largest = std::max(largest, shot->largest_coefficient());
-  return largest / kMaxSteps;
+  return std::max(largest / kMaxSteps, kMinStep);
 }
 
 Status SequenceEncoder::prepare(const Settings& settings) {
@@ -227,7 +233,7 @@ double SequenceEncoder::guess_step(const Settings& settings) const {
                                      : point.bits > 8 * options_.target_value * bytes_per_unit();
   };
   // From coarse steps on, since fine ones need components that will not be sent.
-  const double least = std::log(std::max(least_step(), 1e-30));
+  const double least = std::log(least_step());
   double low = 0.5 * std::log(energy_);
   while (low > least && !fine(low)) low -= std::log(2.0);
   for (int i = 1; i <= kHalvings; ++i) {
@@ -383,7 +389,7 @@ Status SequenceEncoder::start() {
   if (bounded()) {
     const auto frames = static_cast<double>(sequence_.frame_count());
     const double q = energy_ > 0 ? 2 * first_error() * std::sqrt(frames) : kAnyStep;
-    return attempt(settings, q, best_);
+    return attempt(settings, std::clamp(q, least_step(), kMaxStep), best_);
   }
   if (Status s = prepare(settings); !s.ok()) return s;
   double q = guess_step(settings);
@@ -402,7 +408,8 @@ Status SequenceEncoder::suit_grids() {
   return settings == best_.settings ? Status() : attempt(settings, best_.q, best_);
 }
 
-Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
+Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats, bool& missed) {
+  missed = false;
   if (Status s = start(); !s.ok()) return s;
   if (bounded()) {
     if (Status s = search_base(); !s.ok()) return s;
@@ -419,14 +426,15 @@ Status SequenceEncoder::run(std::vector<uint8_t>& out, EncodeStats& stats) {
   if (Status s = choose_prior(); !s.ok()) return s;
   if (Status s = finish_search(); !s.ok()) return s;
   stats = this->stats();
-  if (options_.target == Target::kKg && best_.excess <= 0 && stats.kg > options_.target_value) {
-    exact_ = true;  // so little error is asked for that rounding to binary32 counts
+  const bool fell_short = stats.kg > options_.target_value;
+  if (options_.target == Target::kKg && fell_short != (best_.excess > 0)) {
+    exact_ = true;  // so little error is asked for that rounding to binary32 counts, for or against
     best_.excess = excess_of(best_);
     if (Status s = finish_search(); !s.ok()) return s;
     stats = this->stats();
   }
-  const bool missed = bounded() && stats.max_error > options_.target_value;
-  if (best_.excess > 0 || missed) return unreachable(stats);
+  missed = best_.excess > 0 || (bounded() && stats.max_error > options_.target_value);
+  if (missed) return unreachable(stats);
   out = std::move(best_.bytes);
   return {};
 }

@@ -28,7 +28,8 @@ class SequenceEncoder {
   /// `sequence` must outlive the encoder and satisfy the pre-conditions of `encode`.
   SequenceEncoder(const Sequence& sequence, const EncodeOptions& options);
 
-  Status run(std::vector<uint8_t>& out, EncodeStats& stats);
+  /// `missed`: the target is out of reach; `stats` are then those of the nearest.
+  Status run(std::vector<uint8_t>& out, EncodeStats& stats, bool& missed);
 
  private:
   using Settings = std::vector<ShotSettings>;

@@ -56,7 +56,9 @@ Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
       energy += energy_of(shot.frame(t));
     }
   }
-  if (Status s = encode_lossless(snapped, options, step, out, stats); !s.ok()) return s;
+  if (Status s = encode_lossless(snapped, options, {.step = step, .face_order = false}, out, stats);
+      !s.ok())
+    return s;
   stats.kg = energy > 0 ? 100 * std::sqrt(errors.squared / energy) : 0;
   stats.rmse = std::sqrt(errors.squared / vertex_frames_of(sequence));
   stats.max_error = errors.largest;
