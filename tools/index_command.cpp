@@ -16,6 +16,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace index_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,8 +158,10 @@ int run(const Options& o) {
 }
 
 }  // namespace
+}  // namespace index_command
 
 void add_index_command(CLI::App& app, int& exit_code) {
+  using namespace index_command;
   auto* command = app.add_subcommand("index", "Sign shapes, for reeb search to find them");
   auto o = std::make_shared<Options>();
   command

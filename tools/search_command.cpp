@@ -13,6 +13,7 @@
 #include "tools/text.h"
 
 namespace reeb::tools {
+namespace search_command {
 namespace {
 
 struct Options {
@@ -156,8 +157,10 @@ void add_picture_options(CLI::App& command, Options& o) {
 }
 
 }  // namespace
+}  // namespace search_command
 
 void add_search_command(CLI::App& app, int& exit_code) {
+  using namespace search_command;
   auto* command =
       app.add_subcommand("search", "Find the shapes of an archive that are most like one");
   auto o = std::make_shared<Options>();
