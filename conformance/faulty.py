@@ -426,6 +426,11 @@ def add_sections(m):
     m.add("draco_traversal", "corrupt", "An unknown traversal.", file.edited(b"REFM", draco=b"\1" + mesh["draco"][1:]))
     m.add("draco_counts", "corrupt", "More triangles than the mesh's bytes can hold.",
           file.edited(b"REFM", draco=mesh["draco"][:1] + uv(1 << 20) + uv(1 << 20) + mesh["draco"][3:]))
+    for name, section in (("noise", "coefficients"), ("noise", "basis"), ("thesis_noise", "coefficients")):
+        sound = File(m.sound(name))
+        cut = read_group(sound.chunks[2][1])[section][:-1]
+        m.add("%s_without_end_of_%s" % (name, section), "corrupt", "A range code that is one byte short: it is read past its end.",
+              sound.edited(b"GRUP", **{section: cut}))
     regions = File(m.sound("main_regions"))
     m.add("region_out_of_range", "corrupt", "A region that is not there.", regions.edited(b"GRUP", motion=bytes(400)))
     m.add("no_motion", "corrupt", "An empty motion section.", regions.edited(b"GRUP", motion=b""))
