@@ -25,6 +25,10 @@ inline constexpr ChunkType kHeadChunk = {'H', 'E', 'A', 'D'};
 inline constexpr ChunkType kReferenceChunk = {'R', 'E', 'F', 'M'};
 inline constexpr ChunkType kGroupChunk = {'G', 'R', 'U', 'P'};
 inline constexpr ChunkType kMetadataChunk = {'m', 'e', 't', 'a'};
+inline constexpr ChunkType kAttributeChunk = {'a', 't', 't', 'r'};
+inline constexpr ChunkType kAttributeGroupChunk = {'a', 'g', 'r', 'p'};
+inline constexpr ChunkType kResourceChunk = {'r', 's', 'r', 'c'};
+inline constexpr ChunkType kBoundsChunk = {'b', 'n', 'd', 's'};
 inline constexpr ChunkType kSeekChunk = {'s', 'e', 'e', 'k'};
 
 /// Upper case first letter: a reader that does not know the type must refuse the file.

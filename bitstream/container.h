@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bitstream/attribute_headers.h"
 #include "bitstream/byte_source.h"
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
@@ -55,6 +56,13 @@ class ContainerWriter {
   Status reference(const ReferenceHeader& header, std::span<const uint8_t> mesh);
   /// The section lengths of `header` are taken from the spans.
   Status group(const GroupHeader& header, const GroupSections& sections);
+  /// Behind the reference mesh of its shot; `values`: the section of a static attribute.
+  Status attribute(const AttributeHeader& header, const AttributeBody& body,
+                   std::span<const uint8_t> values);
+  /// Behind its group; `sections`: as of `encode_attribute_group`.
+  Status attribute_group(const AttributeGroupHeader& header, std::span<const uint8_t> sections);
+  Status resource(const ResourceHeader& header, std::span<const uint8_t> bytes);
+  Status bounds(const GroupBoxes& bounds);
   Status finish();
 
   /// Empties the output, whose bytes the caller has passed on; the file goes on behind them.
@@ -84,6 +92,25 @@ struct GroupChunk : GroupSections {
   bool continues() const { return (header.flags & GroupHeader::kContinues) != 0; }
 };
 
+/// What an attribute is, and, behind `header`, its body and values.
+struct AttributeChunk {
+  AttributeHeader header;
+  std::span<const uint8_t> body;
+  uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+};
+
+struct AttributeGroupChunk {
+  AttributeGroupHeader header;
+  std::span<const uint8_t> sections;
+  uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+};
+
+struct ResourceChunk {
+  ResourceHeader header;
+  std::span<const uint8_t> bytes;
+  uint64_t offset = 0, size = 0;  ///< of the whole chunk in the file, bytes
+};
+
 /// True where nothing is missing between the groups.
 inline bool follows(const GroupChunk& group, const GroupChunk& before) {
   return group.header.shot == before.header.shot &&
@@ -103,6 +130,10 @@ struct ContainerReader {
   std::vector<ReferenceChunk> references;  ///< in order of shots
   std::vector<GroupChunk> groups;          ///< in order of frames; gaps where damaged or cut
   std::vector<MetadataEntry> metadata;
+  std::vector<AttributeChunk> attributes;             ///< rising by shot and index
+  std::vector<AttributeGroupChunk> attribute_groups;  ///< rising by first frame and index
+  std::vector<ResourceChunk> resources;               ///< in order of the file
+  std::vector<Box> bounds;  ///< of the groups; empty where the file does not tell
   std::vector<DamagedRange> damaged;
   bool truncated = false;  ///< the file ends early; what was whole before the cut is here
   /// Bytes of the file by section; the sum is the file's size.
@@ -120,12 +151,18 @@ struct ContainerReader {
 
   /// Reference mesh of a shot, nullptr where it was damaged.
   const ReferenceChunk* reference(uint32_t shot) const;
+  /// nullptr where there is none, or it was damaged.
+  const AttributeChunk* attribute(uint32_t shot, uint32_t index) const;
+  const AttributeGroupChunk* attribute_group(uint32_t first_frame, uint32_t index) const;
 };
 
 /// Reads the chunk again, as a whole, and sets its spans, which point into `source` or `buffer`.
 /// kCorrupt where its checksum is wrong or it has changed.
 Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, ReferenceChunk& chunk);
 Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, GroupChunk& chunk);
+Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, AttributeChunk& chunk);
+Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, AttributeGroupChunk& chunk);
+Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, ResourceChunk& chunk);
 
 /// Text for people: every chunk and every header field as "offset name value", one a line, as far
 /// as the bytes make sense.

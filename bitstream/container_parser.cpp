@@ -33,7 +33,7 @@ bool is_trailer(std::span<const uint8_t> bytes) {
 }
 
 bool read_whole_payload(const ChunkType& type) {
-  return type == kMetadataChunk || type == kSeekChunk;
+  return type == kMetadataChunk || type == kSeekChunk || type == kBoundsChunk;
 }
 
 uint64_t section_bytes(const GroupHeader& h) {
@@ -216,8 +216,10 @@ void ContainerParser::skip_damage(const Chunk& chunk, ChunkResult result) {
       std::upper_bound(landmarks_.begin(), landmarks_.end(), offset_,
                        [](uint64_t offset, const Landmark& l) { return offset < l.offset; });
   uint64_t end = source_.size();
+  const bool ancillary = result == ChunkResult::kFound && !is_critical(chunk.type);
   if (next != landmarks_.end()) {
-    end = next->offset;
+    // Others that the table does not know may follow.
+    end = ancillary ? std::min(next->offset, offset_ + chunk.size) : next->offset;
   } else if (result == ChunkResult::kFound) {
     end = offset_ + chunk.size;
   } else if (result == ChunkResult::kCut) {
@@ -264,6 +266,10 @@ Status ContainerParser::take(const Chunk& chunk) {
   if (chunk.type == kGroupChunk) return take_group(chunk);
   if (chunk.type == kSeekChunk) return take_seek_table(chunk);
   if (chunk.type == kMetadataChunk) return take_metadata(chunk);
+  if (chunk.type == kAttributeChunk) return take_attribute(chunk);
+  if (chunk.type == kAttributeGroupChunk) return take_attribute_group(chunk);
+  if (chunk.type == kResourceChunk) return take_resource(chunk);
+  if (chunk.type == kBoundsChunk) return take_bounds(chunk);
   if (chunk.type == kHeadChunk) return corrupt(chunk, "a second sequence header");
   if (is_critical(chunk.type)) {
     return {StatusCode::kUnsupported, "unknown critical chunk " + to_string(chunk.type)};
@@ -390,6 +396,8 @@ Status ContainerParser::check_complete() {
     return {};
   }
   if (!intact()) return {};
+  if (!out_.bounds.empty() && out_.bounds.size() != out_.groups.size())
+    return Status::corrupt("bnds has not as many boxes as there are groups");
   if (out_.references.size() != out_.header.shot_count ||
       frames_end() != out_.header.total_frames) {
     return Status::corrupt("HEAD announces more shots or frames than the file holds");

@@ -53,6 +53,10 @@ class ContainerParser {
   void skip_damage(const Chunk& chunk, ChunkResult result);
   Status take(const Chunk& chunk);
   Status take_metadata(const Chunk& chunk);
+  Status take_attribute(const Chunk& chunk);
+  Status take_attribute_group(const Chunk& chunk);
+  Status take_resource(const Chunk& chunk);
+  Status take_bounds(const Chunk& chunk);
   Status take_reference(const Chunk& chunk);
   void note_chunk(const Chunk& chunk, uint32_t frame_count);
   Status check_reference(const Chunk& chunk, const ReferenceChunk& reference) const;

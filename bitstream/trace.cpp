@@ -22,6 +22,12 @@ void trace_payload(const Chunk& chunk, std::string& lines) {
   if (chunk.type == kMetadataChunk) trace_header<Metadata>(in, chunk, lines);
   if (chunk.type == kSeekChunk) trace_header<SeekTable>(in, chunk, lines);
   if (chunk.type == kGroupChunk) trace_header<GroupHeader>(in, chunk, lines);
+  if (chunk.type == kAttributeGroupChunk) trace_header<AttributeGroupHeader>(in, chunk, lines);
+  if (chunk.type == kResourceChunk) trace_header<ResourceHeader>(in, chunk, lines);
+  if (chunk.type == kBoundsChunk) trace_header<GroupBoxes>(in, chunk, lines);
+  if (chunk.type == kAttributeChunk && trace_header<AttributeHeader>(in, chunk, lines)) {
+    trace_header<AttributeBody>(in, chunk, lines);
+  }
   if (chunk.type == kReferenceChunk && trace_header<ReferenceHeader>(in, chunk, lines)) {
     trace_header<MeshHeader>(in, chunk, lines);
   }

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitstream/bytes.h"
@@ -58,13 +60,55 @@ reeb::Status write_frame(reeb::Decoder& decoder, uint32_t frame, std::ofstream& 
   return out ? reeb::Status() : reeb::Status::io("the output cannot be written");
 }
 
+/// Attributes of a frame: static ones once a shot. Those that do not decode are left out; the
+/// result is that of the first of them.
+class AttributeWriter {
+ public:
+  reeb::Status write(reeb::Decoder& decoder, uint32_t frame, std::ofstream& out) {
+    std::vector<reeb::Attribute> attributes;
+    std::vector<uint32_t> indices;
+    if (reeb::Status s = decoder.attributes(frame, attributes, indices); !s.ok()) return s;
+    reeb::Status result;
+    for (size_t i = 0; i < attributes.size(); ++i) {
+      const std::pair key(shot_of(decoder.info(), frame), indices[i]);
+      if (!attributes[i].animated && !written_.insert(key).second) continue;
+      reeb::Attribute decoded;
+      const reeb::Status s = decoder.decode_attribute(frame, indices[i], decoded);
+      if (result.ok()) result = s;
+      if (s.ok()) write_record(frame, indices[i], decoded.values, out);
+    }
+    return result;
+  }
+
+ private:
+  static uint32_t shot_of(const reeb::StreamInfo& info, uint32_t frame) {
+    for (const auto& g : info.groups) {
+      if (frame - g.first_frame < g.frame_count) return g.shot;
+    }
+    return 0;
+  }
+  static void write_record(uint32_t frame, uint32_t index, const std::vector<uint8_t>& values,
+                           std::ofstream& out) {
+    std::vector<uint8_t> bytes;
+    for (const uint32_t x : {UINT32_MAX, frame, index, static_cast<uint32_t>(values.size())})
+      reeb::append_u32(bytes, x);
+    bytes.insert(bytes.end(), values.begin(), values.end());
+    out.write(reinterpret_cast<const char*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size()));
+  }
+
+  std::set<std::pair<uint32_t, uint32_t>> written_;  ///< shot and index
+};
+
 /// Frames that do not decode are left out; the result is that of the file or of the first of them.
 reeb::Status write_frames(reeb::Decoder& decoder, std::ofstream& out) {
   reeb::Status result;
   if (decoder.info().truncated) result = reeb::Status::truncated("the file ends early");
+  AttributeWriter attributes;
   for (uint32_t t = 0; t < decoder.info().total_frames; ++t) {
-    const reeb::Status s = write_frame(decoder, t, out);
+    reeb::Status s = write_frame(decoder, t, out);
     if (s.code() == reeb::StatusCode::kIo) return s;
+    if (s.ok()) s = attributes.write(decoder, t, out);
     if (result.ok()) result = s;
   }
   return result;

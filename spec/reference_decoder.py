@@ -34,6 +34,13 @@ def pack_connectivity(vertex_count, faces):
     return struct.pack("<%dI" % len(numbers), *numbers)
 
 
+def write_attribute(out, t, index, values):
+    if out is not None:
+        out.write(struct.pack("<4I", 0xFFFFFFFF, t, index, len(values)) + values)
+    else:
+        print(t, "attribute", index, hashlib.sha256(values).hexdigest(), flush=True)
+
+
 def write_frame(out, t, connectivity, positions):
     if out is not None:
         out.write(struct.pack("<I", t) + connectivity + positions)
@@ -46,6 +53,7 @@ def decode_frames(file, draco_command, out):
     decoder = Decoder(file, draco_command)
     result = "truncated" if file.truncated else "ok"
     lost = set()  # groups that do not decode
+    written = set()  # static attributes: shot and index
     for t in range(file.total_frames):
         group = next((g.first_frame for g in file.groups if g.first_frame <= t < g.first_frame + g.frame_count), t)
         if group in lost:
@@ -58,6 +66,24 @@ def decode_frames(file, draco_command, out):
             result = fault.name if result == "ok" else result
             continue
         write_frame(out, t, pack_connectivity(len(positions), faces), pack_positions(positions))
+        fault = decode_attributes(decoder, t, written, out)
+        result = fault if result == "ok" else result
+    return result
+
+
+def decode_attributes(decoder, t, written, out):
+    """Writes the attributes of a frame, static ones once a shot; the result."""
+    result = "ok"
+    for attribute in decoder.attributes(t):
+        key = (attribute.shot, attribute.index)
+        if not attribute.animated() and key in written:
+            continue
+        written.add(key)
+        try:
+            write_attribute(out, t, attribute.index, decoder.attribute(attribute, t))
+        except Refused as fault:
+            report(fault)
+            result = fault.name if result == "ok" else result
     return result
 
 

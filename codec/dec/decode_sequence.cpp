@@ -2,6 +2,8 @@
 #include <atomic>
 
 #include "codec/common/base/parallel.h"
+#include "codec/dec/attributes/attribute_decoder.h"
+#include "codec/dec/attributes/attribute_store.h"
 #include "codec/dec/decoder.h"
 #include "codec/dec/group_memory.h"
 #include "codec/dec/group_store.h"
@@ -19,7 +21,8 @@ class SequenceDecoder {
         options_(options),
         source_(bytes),
         account_(options.limits.max_memory),
-        store_(source_, options, account_) {}
+        store_(source_, options, account_),
+        attributes_(source_, account_, store_) {}
 
   Status run(Sequence& out);
 
@@ -37,12 +40,17 @@ class SequenceDecoder {
   };
 
   Status add_shot(const ReferenceChunk& reference, const Run& run, Shot& shot);
+  Status add_attributes(const ReferenceChunk& reference, Shot& shot);
+  Status add_frames(const std::shared_ptr<const KeptAttribute>& kept, const Shot& shot,
+                    Attribute& attribute);
+  Status add_resources(Sequence& out);
   Status decode_groups(const ReferenceChunk& reference, const Run& run, Shot& shot);
   std::vector<Run> split(const Run& run) const;
   void decode_run(const ReferenceChunk& reference, const Run& run, unsigned threads, Output& out);
   Status collect(const Output& out, Shot& shot);
   unsigned workers(uint64_t vertices, const Run& run, size_t parts) const;
   Status check_complete() const;
+  Status check_attributes() const;
 
   std::span<const uint8_t> bytes_;
   const DecodeOptions& options_;
@@ -51,6 +59,9 @@ class SequenceDecoder {
   Lease output_;
   ContainerReader container_;
   GroupStore store_;
+  AttributeStore attributes_;
+  /// Groups of the shot at hand that did decode: first frames and numbers of frames.
+  std::vector<std::pair<uint32_t, uint32_t>> decoded_;
   Status damage_;  // the first group that did not decode
 };
 
@@ -103,6 +114,7 @@ unsigned SequenceDecoder::workers(uint64_t vertices, const Run& run, size_t part
 // Closes the gaps that groups leave which do not decode.
 Status SequenceDecoder::collect(const Output& out, Shot& shot) {
   size_t end = 0;
+  decoded_.clear();
   for (size_t i = 0; i < out.results.size(); ++i) {
     const Status& result = out.results[i];
     if (!result.ok() && result.code() != StatusCode::kCorrupt) return result;
@@ -111,7 +123,9 @@ Status SequenceDecoder::collect(const Output& out, Shot& shot) {
     const size_t size = out.first[i + 1] - out.first[i];
     if (end != out.first[i]) std::copy_n(out.positions + out.first[i], size, out.positions + end);
     end += size;
-    shot.frame_count += container_.groups[out.run.begin + i].header.frame_count;
+    const GroupHeader& header = container_.groups[out.run.begin + i].header;
+    shot.frame_count += header.frame_count;
+    decoded_.emplace_back(header.first_frame, header.frame_count);
   }
   shot.positions.resize(end);
   return {};
@@ -147,11 +161,80 @@ Status SequenceDecoder::add_shot(const ReferenceChunk& reference, const Run& run
   return decode_groups(reference, run, shot);
 }
 
+// In the frames that have positions.
+Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& kept,
+                                   const Shot& shot, Attribute& attribute) {
+  if (!attribute.animated) return {};
+  if (kept->header.computed()) {
+    Status status;
+    for (uint32_t t = 0; t < shot.frame_count && status.ok(); ++t)
+      status = attributes_.append_normals(*kept, shot.frame(t), attribute.values);
+    return status;
+  }
+  for (const auto& [first_frame, frame_count] : decoded_) {
+    const AttributeGroupChunk* part = container_.attribute_group(first_frame, kept->header.index);
+    if (part == nullptr)
+      return Status::corrupt("attribute \"" + attribute.name + "\" is missing in frame " +
+                             std::to_string(uint64_t{first_frame} + 1));
+    for (uint32_t t = 0; t < frame_count; ++t) {
+      Status s = attributes_.append_frame(kept, *part, t, resolve_threads(options_.threads), {},
+                                          attribute.values);
+      if (!s.ok()) return s;
+    }
+  }
+  return {};
+}
+
+// One that does not decode is left out.
+Status SequenceDecoder::add_attributes(const ReferenceChunk& reference, Shot& shot) {
+  for (const AttributeChunk& chunk : container_.attributes) {
+    if (chunk.header.shot != reference.header.shot) continue;
+    std::shared_ptr<const KeptAttribute> kept;
+    const Status status = attributes_.get(chunk, reference, kept);
+    if (status.code() == StatusCode::kCorrupt && damage_.ok()) damage_ = status;
+    if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
+    if (!status.ok()) continue;
+    const uint64_t frames = kept->attribute.animated ? shot.frame_count : 1;
+    if (!output_.grow(account_, frames * attribute_bytes(kept->header, shot.connectivity)))
+      return Status::limit("the sequence needs more memory than the limit allows");
+    Attribute attribute = kept->attribute;
+    if (Status s = add_frames(kept, shot, attribute); s.code() == StatusCode::kCorrupt) {
+      if (damage_.ok()) damage_ = s;
+    } else if (!s.ok()) {
+      return s;
+    } else {
+      shot.attributes.push_back(std::move(attribute));
+    }
+  }
+  return {};
+}
+
+Status SequenceDecoder::add_resources(Sequence& out) {
+  for (const ResourceChunk& chunk : container_.resources) {
+    if (!output_.grow(account_, chunk.size))
+      return Status::limit("the resources need more memory than the limit allows");
+    if (Status s = attributes_.get_resource(chunk, out.resources.emplace_back()); !s.ok()) return s;
+  }
+  return {};
+}
+
+// Frames do not miss what these chunks hold, but the caller does.
+Status SequenceDecoder::check_attributes() const {
+  for (const DamagedRange& range : container_.damaged) {
+    if (range.type == to_string(kAttributeChunk) || range.type == to_string(kResourceChunk) ||
+        range.type == to_string(kAttributeGroupChunk)) {
+      return Status::corrupt("chunk " + range.type + " at byte " + std::to_string(range.offset) +
+                             " is damaged");
+    }
+  }
+  return {};
+}
+
 Status SequenceDecoder::check_complete() const {
   if (!damage_.ok()) return damage_;
   StreamInfo info;
   update_info(container_, bytes_.size(), true, 0, info);
-  if (info.missing.empty()) return {};
+  if (info.missing.empty()) return check_attributes();
   const StreamInfo::Gap& gap = info.missing.front();
   const std::string from = "frame " + std::to_string(gap.first_frame + 1);
   if (container_.truncated && gap.first_frame == info.frame_count)
@@ -176,8 +259,13 @@ Status SequenceDecoder::run(Sequence& out) {
     Status status = add_shot(*reference, run, out.shots.back());
     if (status.code() == StatusCode::kCorrupt && damage_.ok()) damage_ = status;
     if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
-    if (out.shots.back().frame_count == 0) out.shots.pop_back();
+    if (out.shots.back().frame_count == 0) {
+      out.shots.pop_back();
+    } else if (Status s = add_attributes(*reference, out.shots.back()); !s.ok()) {
+      return s;
+    }
   }
+  if (Status s = add_resources(out); !s.ok()) return s;
   return check_complete();
 }
 

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "bitstream/container_parser.h"
+#include "codec/common/base/parallel.h"
 #include "codec/common/mesh/faces.h"
+#include "codec/dec/attributes/attribute_store.h"
 #include "codec/dec/group_store.h"
 #include "codec/dec/guard.h"
 #include "codec/dec/normals.h"
@@ -31,7 +33,8 @@ struct Decoder::Impl {
         memory(o.resource()),
         source(std::move(bytes)),
         account(o.limits.max_memory),
-        store(*source, options, account) {}
+        store(*source, options, account),
+        attribute_store(*source, account, store) {}
 
   const DecodeOptions options;
   std::pmr::memory_resource* const memory;
@@ -44,6 +47,7 @@ struct Decoder::Impl {
   bool complete = true;                     ///< no bytes will come
   StreamInfo info;
   GroupStore store;
+  AttributeStore attribute_store;
 
   std::mutex turn;  ///< held by each call
   std::atomic<uint32_t> cancels{0};
@@ -55,7 +59,13 @@ struct Decoder::Impl {
   Status find_group(uint32_t frame, size_t& index) const;
   Status make_request(size_t group, GroupRequest& request) const;
   Status find_reference(size_t group, const ReferenceChunk*& reference) const;
+  Status reference_of(uint32_t frame, const ReferenceChunk*& reference) const;
   Status faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces);
+  Status decode_normals(uint32_t frame, const KeptAttribute& kept, const StopToken& stop,
+                        Attribute& out);
+  Status describe_attributes(uint32_t frame, std::vector<Attribute>& out,
+                             std::vector<uint32_t>& indices);
+  Status decode_attribute(uint32_t frame, uint32_t index, const StopToken& stop, Attribute& out);
   Status triangles_of(ShotFaces& faces);
   /// The group of a frame that has at most `most_vertices`.
   Status open_group(uint32_t frame, size_t most_vertices, const StopToken& stop,
@@ -126,12 +136,69 @@ Status Decoder::Impl::find_reference(size_t group, const ReferenceChunk*& refere
   return Status::corrupt("reference mesh " + std::to_string(shot + 1) + " is missing or damaged");
 }
 
-Status Decoder::Impl::faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces) {
+Status Decoder::Impl::reference_of(uint32_t frame, const ReferenceChunk*& reference) const {
   size_t group = 0;
   if (Status s = find_group(frame, group); !s.ok()) return s;
+  return find_reference(group, reference);
+}
+
+Status Decoder::Impl::faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces) {
   const ReferenceChunk* reference = nullptr;
-  if (Status s = find_reference(group, reference); !s.ok()) return s;
+  if (Status s = reference_of(frame, reference); !s.ok()) return s;
   return store.get_faces(*reference, faces);
+}
+
+Status Decoder::Impl::decode_normals(uint32_t frame, const KeptAttribute& kept,
+                                     const StopToken& stop, Attribute& out) {
+  std::shared_ptr<ShotFaces> faces;
+  if (Status s = faces_of(frame, faces); !s.ok()) return s;
+  const size_t values = size_t{faces->connectivity.vertex_count} * 3;
+  Lease lease;
+  if (!lease.grow(account, values * sizeof(float)))
+    return Status::limit("the normals need more memory than the limit allows");
+  std::pmr::vector<float> xyz(values, memory);
+  if (Status s = positions(frame, stop, {.positions = xyz.data()}, faces); !s.ok()) return s;
+  return attribute_store.append_normals(kept, xyz, out.values);
+}
+
+Status Decoder::Impl::describe_attributes(uint32_t frame, std::vector<Attribute>& out,
+                                          std::vector<uint32_t>& indices) {
+  out.clear();
+  indices.clear();
+  const ReferenceChunk* reference = nullptr;
+  if (Status s = reference_of(frame, reference); !s.ok()) return s;
+  for (const AttributeChunk& a : container.attributes) {
+    if (a.header.shot != reference->header.shot) continue;
+    Attribute description;
+    const Status status = attribute_store.describe(a, description);
+    if (status.code() == StatusCode::kCorrupt) continue;
+    if (!status.ok()) return status;
+    out.push_back(std::move(description));
+    indices.push_back(a.header.index);
+  }
+  return {};
+}
+
+Status Decoder::Impl::decode_attribute(uint32_t frame, uint32_t index, const StopToken& stop,
+                                       Attribute& out) {
+  const ReferenceChunk* reference = nullptr;
+  if (Status s = reference_of(frame, reference); !s.ok()) return s;
+  const AttributeChunk* chunk = container.attribute(reference->header.shot, index);
+  if (chunk == nullptr)
+    return Status::invalid("attribute " + std::to_string(index) + " is not there, or is damaged");
+  std::shared_ptr<const KeptAttribute> kept;
+  if (Status s = attribute_store.get(*chunk, *reference, kept); !s.ok()) return s;
+  out = kept->attribute;
+  if (!out.animated) return {};
+  if (kept->header.computed()) return decode_normals(frame, *kept, stop, out);
+  size_t group = 0;
+  if (Status s = find_group(frame, group); !s.ok()) return s;
+  const uint32_t first = container.groups[group].header.first_frame;
+  const AttributeGroupChunk* part = container.attribute_group(first, index);
+  if (part == nullptr)
+    return Status::corrupt("attribute \"" + out.name + "\" is missing in " + frame_name(frame));
+  return attribute_store.append_frame(kept, *part, frame - first, resolve_threads(options.threads),
+                                      stop, out.values);
 }
 
 Status Decoder::Impl::triangles_of(ShotFaces& faces) {
@@ -369,6 +436,25 @@ Status Decoder::decode_at(double time, const FrameTarget& target) {
     if (!(time >= 0 && time <= last)) return Status::invalid("the time is outside the sequence");
     const double whole = std::floor(time);
     return impl_->between(static_cast<uint32_t>(whole), time - whole, stop, target);
+  });
+}
+
+Status Decoder::attributes(uint32_t frame, std::vector<Attribute>& out,
+                           std::vector<uint32_t>& indices) {
+  return impl_->run(
+      [&](const StopToken&) { return impl_->describe_attributes(frame, out, indices); });
+}
+
+Status Decoder::decode_attribute(uint32_t frame, uint32_t index, Attribute& out) {
+  return impl_->run(
+      [&](const StopToken& stop) { return impl_->decode_attribute(frame, index, stop, out); });
+}
+
+Status Decoder::resource(uint32_t index, Resource& out) {
+  return impl_->run([&](const StopToken&) -> Status {
+    if (index >= impl_->container.resources.size())
+      return Status::invalid("there is no resource " + std::to_string(index));
+    return impl_->attribute_store.get_resource(impl_->container.resources[index], out);
   });
 }
 

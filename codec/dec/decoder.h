@@ -88,6 +88,16 @@ class Decoder {
   /// the earlier one where the connectivity changes between them.
   Status decode_at(double time, const FrameTarget& target);
 
+  /// The attributes of the shot that holds `frame`, in order, without values. One that is damaged
+  /// is left out, so that `indices` tells which there are.
+  Status attributes(uint32_t frame, std::vector<Attribute>& out, std::vector<uint32_t>& indices);
+
+  /// Attribute `index` with its values in `frame`. It is decoded once and kept.
+  Status decode_attribute(uint32_t frame, uint32_t index, Attribute& out);
+
+  /// Resource `index` of those in `info`.
+  Status resource(uint32_t index, Resource& out);
+
   /// With prefetch: the frame after the last is the first one, and the other way round.
   void set_loop(bool loop);
 

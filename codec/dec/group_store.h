@@ -77,6 +77,11 @@ class GroupStore {
   /// The faces of a shot, decoding its reference mesh where that was not done yet.
   Status get_faces(const ReferenceChunk& reference, std::shared_ptr<ShotFaces>& out);
 
+  /// The shot, decoding its reference mesh where it is not kept.
+  Status get_shot(const ReferenceChunk& reference, std::shared_ptr<const OpenShot>& out) {
+    return open_shot(reference, Caller::kPlayer, out);
+  }
+
   /// Decodes the next group of a run past the cache, for as many threads at a time as memory
   /// allows. `keep`: another one of the run follows, with the same `state`.
   Status decode_next(const GroupChunk& chunk, const ReferenceChunk& reference, unsigned threads,

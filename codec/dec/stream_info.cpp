@@ -52,6 +52,23 @@ std::vector<StreamInfo::Gap> find_gaps(const ContainerReader& container, const S
   return gaps;
 }
 
+// These are few, so that they are told anew each time.
+void tell_attributes(const ContainerReader& container, StreamInfo& info) {
+  info.attributes.clear();
+  info.resources.clear();
+  for (const AttributeChunk& a : container.attributes)
+    info.attributes.push_back({a.header, a.size});
+  for (const AttributeGroupChunk& g : container.attribute_groups) {
+    for (StreamInfo::AttributeInfo& a : info.attributes) {
+      if (a.header.shot == g.header.shot && a.header.index == g.header.index) a.bytes += g.size;
+    }
+  }
+  for (const ResourceChunk& r : container.resources) info.resources.push_back({r.header, r.size});
+  const bool all = container.bounds.size() == info.groups.size();
+  info.bounds = all ? container.bounds : std::vector<Box>();
+  info.damaged = container.damaged;
+}
+
 }  // namespace
 
 void update_info(const ContainerReader& container, uint64_t file_bytes, bool complete,
@@ -69,6 +86,7 @@ void update_info(const ContainerReader& container, uint64_t file_bytes, bool com
   }
   for (size_t i = info.metadata.size(); i < container.metadata.size(); ++i)
     info.metadata.emplace_back(container.metadata[i].key, container.metadata[i].value);
+  tell_attributes(container, info);
   info.sections.clear();
   for (const auto& [name, bytes] : container.sections) info.sections.push_back({name, bytes});
   if (complete) info.missing = find_gaps(container, info);

@@ -39,6 +39,14 @@ struct StreamInfo {
     uint32_t first_frame = 0;
     uint32_t frame_count = 0;
   };
+  struct AttributeInfo {
+    AttributeHeader header;
+    uint64_t bytes = 0;  ///< of its chunks
+  };
+  struct ResourceInfo {
+    ResourceHeader header;
+    uint64_t bytes = 0;  ///< of its chunk
+  };
   uint32_t format_version = 0;
   double frame_rate = 0;
   double start_time = 0;
@@ -50,6 +58,10 @@ struct StreamInfo {
   std::vector<Gap> missing;   ///< ascending; those past frame_count are there, too
   std::vector<Section> sections;
   std::vector<std::pair<std::string, std::string>> metadata;
+  std::vector<AttributeInfo> attributes;  ///< shot after shot
+  std::vector<ResourceInfo> resources;
+  std::vector<Box> bounds;  ///< of the groups, one each; empty where the file does not tell
+  std::vector<DamagedRange> damaged;
   uint64_t file_bytes = 0;
 };
 

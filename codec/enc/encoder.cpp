@@ -8,10 +8,13 @@
 #include "bitstream/headers.h"
 #include "codec/common/base/float_state.h"
 #include "codec/common/base/largest_magnitude.h"
+#include "codec/common/base/parallel.h"
+#include "codec/enc/attributes/attach.h"
 #include "codec/enc/lossless/lossless_sequence.h"
 #include "codec/enc/search/lossless_offer.h"
 #include "codec/enc/search/profile_tools.h"
 #include "codec/enc/search/sequence_encoder.h"
+#include "codec/enc/search/sequence_summary.h"
 #include "codec/enc/search/snapped_sequence.h"
 
 namespace reeb {
@@ -57,7 +60,9 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     if (Status s = check_shot(sequence.shots[i], lossless, i); !s.ok()) return s;
   }
-  return {};
+  if (options.reorder && has_attributes(sequence))
+    return Status::invalid("attributes need the vertex order; encode without reorder");
+  return check_attributes(sequence);
 }
 
 /// Keeps the smaller of a corrected encoding, which is in `out`, and a snapped one.
@@ -101,14 +106,10 @@ bool wants_no_error(const Sequence& sequence, const EncodeOptions& options) {
   return options.target_value <= static_cast<double>(largest) * kPrecision;
 }
 
-}  // namespace
-
-Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
-              EncodeStats& stats) {
-  const FloatState state;
+Status encode_positions(const Sequence& sequence, const EncodeOptions& options,
+                        std::vector<uint8_t>& out, EncodeStats& stats) {
   out.clear();
   stats = {};
-  if (Status s = check(sequence, options); !s.ok()) return s;
   if (options.target == Target::kLossless)
     return encode_lossless(sequence, options, {}, out, stats);
   bool missed = wants_no_error(sequence, options);
@@ -124,6 +125,53 @@ Status encode(const Sequence& sequence, const EncodeOptions& options, std::vecto
     if (Status s = try_snapped(sequence, options, out, stats); !s.ok()) return s;
   }
   return offer_lossless(sequence, options, out, stats);
+}
+
+/// Adds attributes. Where they take the file past its target, positions are coded once more, for
+/// less.
+Status add_attributes(const Sequence& sequence, const EncodeOptions& options,
+                      std::vector<uint8_t>& out, EncodeStats& stats) {
+  constexpr int kTrials = 4;
+  const double vertex_frames = vertex_frames_of(sequence);
+  const double unit = options.target == Target::kSize   ? 1
+                      : options.target == Target::kBpvf ? vertex_frames / 8
+                                                        : 0;
+  const AnimatedOptions animated = {
+      .profile = options.profile == Profile::kFast ? Profile::kFast : Profile::kMain,
+      .quick = options.effort <= kQuickEffort,
+      .bounds = options.bounds,
+      .trials = options.effort,
+      .threads = resolve_threads(options.threads)};
+  EncodeOptions less = options;
+  for (int trial = 0;; ++trial) {
+    if (Status s = attach_attributes(sequence, animated, out); !s.ok()) return s;
+    const double excess = static_cast<double>(out.size()) - options.target_value * unit;
+    if (unit == 0 || excess <= 0) break;
+    less.target_value -= excess / unit;
+    if (trial == kTrials || !(less.target_value > 0))
+      return Status::invalid("the attributes leave no room for positions at this target");
+    if (Status s = encode_positions(sequence, less, out, stats); !s.ok()) return s;
+  }
+  const EncodeStats sizes = size_stats(out, vertex_frames);
+  stats.bytes = sizes.bytes;
+  stats.bpvf = sizes.bpvf;
+  stats.sections = sizes.sections;
+  return {};
+}
+
+}  // namespace
+
+Status encode(const Sequence& sequence, const EncodeOptions& options, std::vector<uint8_t>& out,
+              EncodeStats& stats) {
+  const FloatState state;
+  out.clear();
+  stats = {};
+  if (Status s = check(sequence, options); !s.ok()) return s;
+  Status status = encode_positions(sequence, options, out, stats);
+  if (status.ok() && (has_attributes(sequence) || options.bounds))
+    status = add_attributes(sequence, options, out, stats);
+  if (!status.ok()) out.clear();
+  return status;
 }
 
 }  // namespace reeb

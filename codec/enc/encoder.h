@@ -43,6 +43,7 @@ struct EncodeOptions {
   int regions = -1;  ///< regions of the affine motion model; -1 = decided by rate-distortion, where
                      ///< trials are worth their time (up to effort 8: fast profile, a mesh in
                      ///< several pieces); 0 = none
+  bool bounds = false;   ///< tells the box of every group, for players that cull
   unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it
   /// Called with the done part in [0,1]; return false to cancel. May be empty.
   std::function<bool(double)> progress;

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   using reeb::conformance::Stream;
   std::vector<Stream> streams = reeb::conformance::encoded_streams();
   for (Stream& s : reeb::conformance::pinning_streams()) streams.push_back(std::move(s));
+  for (Stream& s : reeb::conformance::attribute_streams()) streams.push_back(std::move(s));
   for (Stream& s : reeb::conformance::built_streams()) streams.push_back(std::move(s));
   for (const Stream& s : streams) {
     const std::filesystem::path folder = std::filesystem::path(argv[1]) / s.kind;

@@ -21,6 +21,8 @@ struct Stream {
 std::vector<Stream> encoded_streams();
 /// Odd meshes and random sections, which pin what the encoder's streams leave open.
 std::vector<Stream> pinning_streams();
+/// The same with attributes.
+std::vector<Stream> attribute_streams();
 /// What it never writes but the syntax allows, put together from the syntax structures.
 std::vector<Stream> built_streams();
 

@@ -2,6 +2,7 @@
 import struct
 from dataclasses import dataclass, field
 
+from .attribute_chunks import read_attribute, read_attribute_group, read_bounds, read_resource
 from .bytes import LARGEST_F32, LEAST_F32, Reader
 from .errors import Corrupt, LimitExceeded, Truncated, Unsupported, require
 
@@ -107,6 +108,9 @@ class File:
     references: dict = field(default_factory=dict)  # by shot
     groups: list = field(default_factory=list)  # in order of frames
     metadata: list = field(default_factory=list)
+    attributes: list = field(default_factory=list)  # rising by shot and index
+    attribute_groups: list = field(default_factory=list)  # rising by first frame and index
+    bounds: list = None
     truncated: bool = False
     damaged: bool = False
 
@@ -281,6 +285,7 @@ class FileReader:
             require(not file.sound() or file.groups and max(r.first_frame for r in file.references.values()) <
                     file.total_frames, "the file ends with a shot without frames")
         elif file.sound():
+            require(file.bounds is None or len(file.bounds) == len(file.groups), "bnds: not a box for each group")
             require(len(file.references) == file.shot_count and file.frames_end() == file.total_frames,
                     "HEAD announces more than the file holds")
 
@@ -299,7 +304,9 @@ class FileReader:
             except Truncated:
                 end = None
             self.file.damaged = True
-            offset = min((at for at in landmarks if at > offset), default=end)
+            following = min((at for at in landmarks if at > offset), default=end)
+            ancillary = end is not None and self.data[offset:offset + 1].islower()
+            offset = min(following, end) if ancillary else following
             if offset is None:
                 self.file.truncated = True
                 return
@@ -325,6 +332,15 @@ class FileReader:
             self.take_group(chunk)
         elif chunk.type == b"meta":
             self.file.metadata += read_metadata(chunk.payload)
+        elif chunk.type == b"attr":
+            self.take_attribute(chunk)
+        elif chunk.type == b"agrp":
+            self.take_attribute_group(chunk)
+        elif chunk.type == b"rsrc":
+            read_resource(chunk.payload)
+        elif chunk.type == b"bnds":
+            require(self.file.bounds is None, "bnds: a second one")
+            self.file.bounds = read_bounds(chunk.payload)
         elif chunk.type == b"seek":
             entries = read_seek_table(chunk.payload)
             require(entries == self.entries or not self.file.sound(), "the seek table is wrong")
@@ -333,6 +349,34 @@ class FileReader:
             raise Corrupt("a second HEAD")
         elif chunk.type[:1].isupper():
             raise Unsupported("unknown critical chunk")
+
+    def take_attribute(self, chunk):
+        """attributes.md section 2."""
+        file = self.file
+        attribute = read_attribute(chunk.payload)
+        before = file.attributes[-1] if file.attributes else None
+        same_shot = before is not None and before.shot == attribute.shot
+        require(before is None or before.shot <= attribute.shot, "attr: shots out of order")
+        require(not same_shot or attribute.index > before.index, "attr: attributes out of order")
+        if file.sound():
+            require(attribute.index == (before.index + 1 if same_shot else 0), "attr: attributes are not consecutive")
+            require(attribute.shot == max(file.references, default=-1), "attr: no reference mesh before it")
+        file.attributes.append(attribute)
+
+    def take_attribute_group(self, chunk):
+        """attributes.md section 10."""
+        file = self.file
+        part = read_attribute_group(chunk.payload)
+        if file.attribute_groups:
+            last = file.attribute_groups[-1]
+            require((part.first_frame, part.index) > (last.first_frame, last.index), "agrp: out of order")
+        owner = [a for a in file.attributes if a.shot == part.shot and a.index == part.index]
+        require(owner[0].animated() and not owner[0].computed() if owner else not file.sound(), "agrp: no animated attribute of this index")
+        if file.sound():
+            group = file.groups[-1] if file.groups else None
+            require(group is not None and (group.shot, group.first_frame, group.frame_count) ==
+                    (part.shot, part.first_frame, part.frame_count), "agrp: not the frames of the group before it")
+        file.attribute_groups.append(part)
 
     def note(self, chunk, frame_count):
         self.entries.append((chunk.offset - self.entries_end, chunk.size, frame_count))

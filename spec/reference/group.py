@@ -1,9 +1,11 @@
 """README.md section 3: decoding of shots, groups and frames."""
 from . import fast
 from .arithmetic import sum32
-from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS, WEAK_PRIOR
+from .attribute_chunks import read_group_body
+from .attributes import animated_sites, decode_static, pack_frame, pack_normals
+from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS, WEAK_PRIOR, Reference, read_group
 from .corrections import Corrections
-from .errors import Corrupt, require
+from .errors import Corrupt, Truncated, require
 from .fields import BASIS, COEFFICIENTS, WEAK_PRIOR_COEFFICIENTS, decode_field
 from .lossless import LosslessGroup
 from .mesh import decode_mesh
@@ -27,6 +29,32 @@ class Shot:
             self.rows, order = build_surface_graph(mesh.grid, mesh.triangles)
         self.positions = [mesh.grid[v] for v in order]
         self.output = [mesh.output[v] for v in order]
+        self.output_grid = [None] * len(order)
+        for v, index in enumerate(mesh.output):
+            self.output_grid[index] = mesh.grid[v]
+
+
+class SiteShot:
+    """attributes.md section 10: sites in place of vertices."""
+    plain = False
+
+    def __init__(self, sites):
+        self.reference = Reference(0, 0, (0.0, 0.0, 0.0), 0.0, b"")
+        self.rows, order = build_surface_graph(sites.grid, sites.triangles)
+        self.positions = [sites.grid[v] for v in order]
+        self.output = order
+
+
+def decode_part(payload, part, shot):
+    """Three channels of an animated attribute in a group."""
+    try:
+        group = read_group(payload)
+    except Truncated as fault:
+        raise Corrupt(str(fault))
+    same = (group.first_frame, group.frame_count, group.shot) == (part.first_frame, part.frame_count, part.shot)
+    plain = group.profile != THESIS and group.region_count == 0 and not group.flags & CONTINUES
+    require(same and plain, "agrp: a part does not fit the group")
+    return DecodedGroup(group, shot)
 
 
 def check_group(group):
@@ -102,6 +130,8 @@ class Decoder:
         self.draco_command = draco_command
         self.shots = {}
         self.groups = {}
+        self.sites = {}  # of animated attributes
+        self.parts = {}  # of them, by attribute and first frame
 
     def shot(self, number):
         if number not in self.shots:
@@ -129,13 +159,49 @@ class Decoder:
         require(len(row) < 64 or not all(g.flags & CONTINUES for g in row), "too many groups continue each other")
         return number - 1
 
-    def frame(self, t):
-        """Step 4: (positions by output index, faces)."""
+    def number_of(self, t):
         for number, group in enumerate(self.file.groups):
             if group.first_frame <= t < group.first_frame + group.frame_count:
-                break
-        else:
-            raise Corrupt("frame %d is missing" % t)
+                return number
+        raise Corrupt("frame %d is missing" % t)
+
+    def attributes(self, t):
+        """attributes.md: those of the shot that holds frame t."""
+        group = self.file.groups[self.number_of(t)]
+        return [a for a in self.file.attributes if a.shot == group.shot]
+
+    def attribute(self, attribute, t):
+        """Its values in frame t."""
+        shot = self.shot(attribute.shot)
+        if not attribute.animated():
+            return decode_static(attribute, shot.output_grid, shot.faces)
+        key = (attribute.shot, attribute.index)
+        if key not in self.sites:
+            sites = animated_sites(attribute, shot.output_grid, shot.faces)
+            self.sites[key] = (sites, None if attribute.computed() else SiteShot(sites))
+        sites, site_shot = self.sites[key]
+        if attribute.computed():
+            return pack_normals(sites, self.frame(t)[0])
+        first = self.file.groups[self.number_of(t)].first_frame
+        if (key, first) not in self.parts:
+            self.parts[key, first] = self.attribute_group(attribute, first, site_shot)
+        scales, parts = self.parts[key, first]
+        coordinates = [None] * len(site_shot.rows)
+        for r, site in enumerate(site_shot.output):
+            coordinates[site] = [x for part in parts for x in part.position(r, t - first)]
+        return pack_frame(attribute, sites, scales, coordinates)
+
+    def attribute_group(self, attribute, first, site_shot):
+        for part in self.file.attribute_groups:
+            if (part.index, part.first_frame) == (attribute.index, first):
+                scales, payloads = read_group_body(part, attribute.channel_count)
+                return scales, [decode_part(payload, part, site_shot) for payload in payloads]
+        raise Corrupt("an attribute is missing in a group")
+
+    def frame(self, t):
+        """Step 4: (positions by output index, faces)."""
+        number = self.number_of(t)
+        group = self.file.groups[number]
         decoded = self.group(number)
         shot = self.shot(group.shot)
         positions = [None] * len(shot.rows)

@@ -217,7 +217,7 @@ void bend(const float* rest, double time, double* xyz) {
 void rest(const float* rest, double, double* xyz) { std::copy(rest, rest + 3, xyz); }
 
 Shot animate(const Shape& shape, uint32_t frames, const Motion& motion) {
-  Shot out{shape.connectivity, frames, {}};
+  Shot out{shape.connectivity, frames, {}, {}};
   for (uint32_t t = 0; t < frames; ++t) {
     for (size_t i = 0; i < shape.positions.size(); i += 3) {
       double xyz[3];

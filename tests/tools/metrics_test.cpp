@@ -135,7 +135,7 @@ TEST_CASE("the order of faces and their first corners do not matter, their sense
   const TestMesh reversed = test_mesh("c", square(), {{2, 1, 0}, {0, 2, 3}});
   const auto sequence = [](const TestMesh& m) {
     Sequence s;
-    s.shots.push_back({m.connectivity, 1, m.positions});
+    s.shots.push_back({m.connectivity, 1, m.positions, {}});
     return s;
   };
   Comparison c;

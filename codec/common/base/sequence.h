@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/common/base/attributes.h"
+
 namespace reeb {
 
 /// Polygons over the vertices 0 .. vertex_count-1, in the order of the input. Anything goes:
@@ -27,6 +29,15 @@ struct Shot {
   uint32_t frame_count = 0;
   std::vector<float>
       positions;  ///< [frame][vertex][xyz], frame_count * vertex_count * 3 finite values
+  std::vector<Attribute> attributes = {};  ///< at most kMaxAttributes
+
+  /// Vertices, corners, faces, or 1.
+  size_t element_count(Domain domain) const {
+    return domain == Domain::kVertex   ? connectivity.vertex_count
+           : domain == Domain::kCorner ? connectivity.corners.size()
+           : domain == Domain::kFace   ? connectivity.face_sizes.size()
+                                       : 1;
+  }
 
   std::span<const float> frame(uint32_t t) const {
     const size_t n = size_t{connectivity.vertex_count} * 3;
@@ -40,6 +51,7 @@ struct Sequence {
   double frame_rate = 0;  ///< frames per second; 0 where unknown
   double start_time = 0;  ///< time of the first frame in frames, as point caches keep it
   std::map<std::string, std::string> metadata;  ///< free key/value pairs, UTF-8
+  std::vector<Resource> resources = {};
 
   uint32_t frame_count() const {
     uint32_t n = 0;

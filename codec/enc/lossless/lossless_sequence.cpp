@@ -7,8 +7,6 @@ namespace reeb {
 
 namespace {
 
-constexpr int kQuickEffort = 3;  ///< up to this effort the quick method is used
-
 Status push_frames(const Sequence& sequence, const EncodeOptions& options, StreamEncoder& encoder) {
   uint32_t done = 0;
   for (const Shot& shot : sequence.shots) {

@@ -8,6 +8,8 @@
 
 namespace reeb {
 
+inline constexpr int kQuickEffort = 3;  ///< up to this effort the quick method is used
+
 struct LosslessOptions {
   double step = 0;         ///< nearly all coordinates are multiples of it; 0 where nothing is known
   bool face_order = true;  ///< faces come back in order, with their first corners

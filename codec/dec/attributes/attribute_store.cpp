@@ -1,0 +1,148 @@
+#include "codec/dec/attributes/attribute_store.h"
+
+#include <cstring>
+
+#include "codec/dec/attributes/attribute_decoder.h"
+#include "codec/dec/attributes/computed_normals.h"
+#include "codec/dec/group_memory.h"
+
+namespace reeb {
+
+Status AttributeStore::grow(uint64_t bytes, Lease& lease) {
+  if (lease.grow(account_, bytes)) return {};
+  kept_.clear();
+  groups_kept_.clear();
+  return lease.grow(account_, bytes)
+             ? Status()
+             : Status::limit("the attributes need more memory than the limit allows");
+}
+
+template <class AnyChunk>
+Status AttributeStore::load(const AnyChunk& wanted, std::vector<uint8_t>& buffer, AnyChunk& chunk,
+                            Lease& lease) {
+  if (Status s = grow(wanted.size, lease); !s.ok()) return s;
+  chunk = wanted;
+  const auto lock = groups_.lock_source();
+  return load_chunk(source_, buffer, chunk);
+}
+
+Status AttributeStore::describe(const AttributeChunk& wanted, Attribute& out) {
+  AttributeChunk chunk;
+  std::vector<uint8_t> buffer;
+  Lease lease;
+  if (Status s = load(wanted, buffer, chunk, lease); !s.ok()) return s;
+  return describe_attribute(chunk, out);
+}
+
+uint64_t KeptAttribute::bytes() const {
+  const uint64_t sites_bytes =
+      (sites.triangles.size() + sites.grid.size() + sites.vertex.size()) * sizeof(uint32_t);
+  return attribute.values.size() + surface.of_element.size() * sizeof(uint32_t) + sites_bytes +
+         (header.animated() ? kept_memory(surface.surface) : 0);
+}
+
+// What an animated attribute's groups, or its normals, are decoded on.
+Status AttributeStore::open_sites(const AttributeChunk& chunk, const ShotSurface& surface,
+                                  KeptAttribute& kept) {
+  if (Status s = describe_attribute(chunk, kept.attribute); !s.ok()) return s;
+  Sites sites;
+  if (Status s = decode_attribute_sites(chunk, surface, sites); !s.ok()) return s;
+  if (chunk.header.computed()) {
+    kept.sites = std::move(sites.mesh);
+    kept.surface.of_element = std::move(sites.of_element);
+    return {};
+  }
+  if (Status s = grow(attribute_surface_memory(sites.mesh.count), kept.lease); !s.ok()) return s;
+  kept.surface = attribute_surface(std::move(sites));
+  return {};
+}
+
+Status AttributeStore::append_normals(const KeptAttribute& kept, std::span<const float> xyz,
+                                      std::vector<uint8_t>& values) {
+  constexpr uint64_t kPerSite = 3 * (2 * sizeof(float) + sizeof(double) + 2 * sizeof(float));
+  Lease lease;
+  if (Status s = grow((kept.sites.count + kept.surface.of_element.size()) * kPerSite, lease);
+      !s.ok())
+    return s;
+  const std::vector<float> normals = computed_normals(kept.sites, xyz);
+  std::vector<uint8_t> bytes(normals.size() * sizeof(float));
+  if (!bytes.empty()) std::memcpy(bytes.data(), normals.data(), bytes.size());
+  bytes = spread_values(std::move(bytes), kept.surface.of_element, 3 * sizeof(float));
+  values.insert(values.end(), bytes.begin(), bytes.end());
+  return {};
+}
+
+Status AttributeStore::get(const AttributeChunk& wanted, const ReferenceChunk& reference,
+                           std::shared_ptr<const KeptAttribute>& out) {
+  const std::pair key(wanted.header.shot, wanted.header.index);
+  if (const auto at = kept_.find(key); at != kept_.end()) {
+    out = at->second;
+    return {};
+  }
+  std::shared_ptr<const OpenShot> shot;
+  if (Status s = groups_.get_shot(reference, shot); !s.ok()) return s;
+  auto kept = std::make_shared<KeptAttribute>();
+  AttributeChunk chunk;
+  std::vector<uint8_t> buffer;
+  if (Status s = load(wanted, buffer, chunk, kept->lease); !s.ok()) return s;
+  const Connectivity& faces = shot->faces->connectivity;
+  if (Status s = grow(attribute_memory(chunk.header, faces), kept->lease); !s.ok()) return s;
+  const DecodedSurface& s = shot->surface;
+  const ShotSurface surface{faces, output_grid(s.surface.grid, s.surface.order, s.output)};
+  kept->header = chunk.header;
+  if (Status status = chunk.header.animated()
+                          ? open_sites(chunk, surface, *kept)
+                          : decode_static_attribute(chunk, surface, kept->attribute);
+      !status.ok())
+    return status;
+  kept->lease.shrink(kept->bytes());
+  out = kept;
+  kept_[key] = std::move(kept);
+  return {};
+}
+
+Status AttributeStore::decode_group(const std::shared_ptr<const KeptAttribute>& kept,
+                                    const AttributeGroupChunk& wanted, unsigned threads,
+                                    const StopToken& stop, KeptAttributeGroup& out) {
+  AttributeGroupChunk chunk;
+  std::vector<uint8_t> buffer;
+  if (Status s = load(wanted, buffer, chunk, out.lease); !s.ok()) return s;
+  AttributeGroupParts parts;
+  if (Status s = read_attribute_group(kept->header, chunk, parts); !s.ok()) return s;
+  const uint64_t sites = kept->surface.surface.output.size();
+  if (Status s = grow(parts.memory(sites), out.lease); !s.ok()) return s;
+  if (Status s = decode_attribute_group(parts, kept->surface, threads, stop, out.frames); !s.ok())
+    return s;
+  out.lease.shrink(parts.kept(sites));
+  out.offset = wanted.offset;
+  out.attribute = kept;
+  return {};
+}
+
+Status AttributeStore::append_frame(const std::shared_ptr<const KeptAttribute>& kept,
+                                    const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
+                                    const StopToken& stop, std::vector<uint8_t>& values) {
+  KeptAttributeGroup& group = groups_kept_[chunk.header.index];
+  if (group.offset != chunk.offset) {
+    group = {};
+    KeptAttributeGroup decoded;
+    if (Status s = decode_group(kept, chunk, threads, stop, decoded); !s.ok()) return s;
+    groups_kept_[chunk.header.index] = std::move(decoded);
+  }
+  const KeptAttributeGroup& there = groups_kept_[chunk.header.index];
+  const std::vector<uint8_t> frame =
+      attribute_frame(there.attribute->header, there.attribute->surface, there.frames, t);
+  values.insert(values.end(), frame.begin(), frame.end());
+  return {};
+}
+
+Status AttributeStore::get_resource(const ResourceChunk& wanted, Resource& out) {
+  ResourceChunk chunk;
+  std::vector<uint8_t> buffer;
+  Lease lease;
+  if (Status s = load(wanted, buffer, chunk, lease); !s.ok()) return s;
+  out = {chunk.header.name, chunk.header.media_type, {chunk.bytes.begin(), chunk.bytes.end()}};
+  return {};
+}
+
+}  // namespace reeb

@@ -1,0 +1,73 @@
+// Decodes attributes when they are first asked for and keeps them, within the memory that the
+// caller allows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "bitstream/container.h"
+#include "codec/common/base/attributes.h"
+#include "codec/dec/attributes/animated_decoder.h"
+#include "codec/dec/group_store.h"
+#include "codec/dec/memory_account.h"
+
+namespace reeb {
+
+struct KeptAttribute {
+  Attribute attribute;  ///< of an animated one, without values
+  AttributeHeader header;
+  AttributeSurface surface;  ///< of an animated one
+  SiteMesh sites;            ///< of computed normals
+  Lease lease;
+
+  uint64_t bytes() const;  ///< that it takes
+};
+
+/// An animated attribute in a group.
+struct KeptAttributeGroup {
+  uint64_t offset = UINT64_MAX;  ///< of the chunk
+  std::shared_ptr<const KeptAttribute> attribute;
+  AttributeFrames frames;
+  Lease lease;
+};
+
+/// One thread at a time.
+class AttributeStore {
+ public:
+  /// All must outlive the store.
+  AttributeStore(ByteSource& source, MemoryAccount& account, GroupStore& groups)
+      : source_(source), account_(account), groups_(groups) {}
+
+  /// Values of a static attribute, sites of an animated one; `reference`: of its shot.
+  Status get(const AttributeChunk& chunk, const ReferenceChunk& reference,
+             std::shared_ptr<const KeptAttribute>& out);
+  /// Values of an animated attribute, `kept`, in frame t of a group, appended to `values`.
+  Status append_frame(const std::shared_ptr<const KeptAttribute>& kept,
+                      const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
+                      const StopToken& stop, std::vector<uint8_t>& values);
+  /// Computed normals for positions of the vertices, appended to `values`.
+  Status append_normals(const KeptAttribute& kept, std::span<const float> xyz,
+                        std::vector<uint8_t>& values);
+  /// What an attribute is, without values.
+  Status describe(const AttributeChunk& chunk, Attribute& out);
+  Status get_resource(const ResourceChunk& chunk, Resource& out);
+
+ private:
+  template <class AnyChunk>
+  Status load(const AnyChunk& wanted, std::vector<uint8_t>& buffer, AnyChunk& chunk, Lease& lease);
+  Status grow(uint64_t bytes, Lease& lease);
+  Status open_sites(const AttributeChunk& chunk, const ShotSurface& surface, KeptAttribute& kept);
+  Status decode_group(const std::shared_ptr<const KeptAttribute>& kept,
+                      const AttributeGroupChunk& wanted, unsigned threads, const StopToken& stop,
+                      KeptAttributeGroup& out);
+
+  ByteSource& source_;
+  MemoryAccount& account_;
+  GroupStore& groups_;
+  std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<KeptAttribute>> kept_;
+  std::map<uint32_t, KeptAttributeGroup> groups_kept_;  ///< by index, the one used last
+};
+
+}  // namespace reeb

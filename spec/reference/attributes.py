@@ -1,0 +1,525 @@
+"""attributes.md sections 4 to 11: values of attributes. Reals are binary64."""
+import math
+import struct
+from dataclasses import dataclass
+
+from .arithmetic import clamp, f32
+from .attribute_chunks import BINARY32, FACE, FORMATS, RANGES, SHOT, TEXTURE_COORDINATE, VERTEX, read_body
+from .bytes import LARGEST_F32
+from .connectivity import NONE
+from .entropy import EVEN, AdaptiveBit, ExpGolomb, IntervalDecoder, SignedInteger
+from .errors import require
+from .fast import Walk
+from .guesses import Guess, GuessMixture
+from .order import dual_triangles
+from .points import FeatureWeights
+
+MOST_MIXED = (1 << 20) - 1
+STEPS = 17
+
+
+class Corners:
+    """Section 4: corners of faces and their twins."""
+
+    def __init__(self, faces):
+        self.vertex = [v for face in faces for v in face]
+        self.face, self.following = [], []
+        for f, face in enumerate(faces):
+            first = len(self.face)
+            self.face += [f] * len(face)
+            self.following += [first + (i + 1) % len(face) for i in range(len(face))]
+        edges = {}
+        for c, v in enumerate(self.vertex):
+            w = self.vertex[self.following[c]]
+            if v != w:
+                edges.setdefault((min(v, w), max(v, w)), []).append(c)
+        self.twin = [NONE] * len(self.vertex)
+        for pair in edges.values():
+            if len(pair) == 2 and self.vertex[pair[0]] != self.vertex[pair[1]]:
+                self.twin[pair[0]], self.twin[pair[1]] = pair[1], pair[0]
+
+    def joints(self):
+        """(corner, corner, whether at the start of the edge)."""
+        for c, t in enumerate(self.twin):
+            if t > c:
+                yield c, self.following[t], True
+                yield self.following[c], t, False
+
+
+class Sets:
+    def __init__(self, count):
+        self.parent = list(range(count))
+
+    def lowest(self, c):
+        while self.parent[c] != c:
+            c = self.parent[c]
+        return c
+
+    def join(self, a, b):
+        a, b = self.lowest(a), self.lowest(b)
+        self.parent[max(a, b)] = min(a, b)
+
+
+def decode_wedges(decoder, corners):
+    """Section 4: (wedge of each corner, vertex of each wedge)."""
+    count = len(corners.vertex)
+    fans = Sets(count)
+    for a, b, _ in corners.joints():
+        fans.join(a, b)
+    fan = [fans.lowest(c) for c in range(count)]
+    size, left, seams = [0] * count, [0] * count, [0] * count
+    for c in range(count):
+        size[fan[c]] += 1
+    for a, _, _ in corners.joints():
+        left[fan[a]] += 1
+    closed = [left[f] == size[f] for f in range(count)]
+    models = {}
+    sets = Sets(count)
+    before = 0
+    for a, b, at_start in corners.joints():
+        f = fan[a]
+        if closed[f] and left[f] == 1 and seams[f] < 2:
+            bit = seams[f]
+        else:
+            context = (min(seams[f], 2), min(left[f], 4) if closed[f] else 5, 0 if at_start else 1 + before)
+            bit = models.setdefault(context, AdaptiveBit()).decode(decoder)
+        left[f] -= 1
+        seams[f] += bit
+        if not bit:
+            sets.join(a, b)
+        before = bit
+    wedge, vertex = [], []
+    for c in range(count):
+        lowest = sets.lowest(c)
+        wedge.append(len(vertex) if lowest == c else wedge[lowest])
+        if lowest == c:
+            vertex.append(corners.vertex[c])
+    return wedge, vertex
+
+
+@dataclass
+class Sites:
+    """Section 5."""
+    grid: list
+    triangles: list  # flat
+    of_element: list  # site of every element
+    vertex: list = None  # of every wedge
+
+
+def fans_of(faces):
+    flat = []
+    for face in faces:
+        for i in range(1, len(face) - 1):
+            triangle = [face[0], face[i], face[i + 1]]
+            if len(set(triangle)) == 3:
+                flat += triangle
+    return flat
+
+
+def decode_sites(decoder, domain, grid, faces):
+    """`grid`: of the vertices in output order."""
+    if domain == VERTEX:
+        return Sites(grid, fans_of(faces), list(range(len(grid))))
+    if domain == SHOT:
+        return Sites([(0, 0, 0)], [], [0])
+    if domain == FACE:
+        middle = [tuple(sum(grid[v][i] for v in face) // len(face) for i in range(3)) for face in faces]
+        return Sites(middle, dual_triangles(faces), list(range(len(faces))))
+    corners = Corners(faces)
+    wedge, vertex = decode_wedges(decoder, corners)
+    named, first = [], 0
+    for face in faces:
+        named.append(wedge[first:first + len(face)])
+        first += len(face)
+    return Sites([grid[v] for v in vertex], fans_of(named), wedge, vertex)
+
+
+class Differences:
+    """Section 7."""
+
+    def __init__(self):
+        self.lengths = [[AdaptiveBit() for _ in range(STEPS)] for _ in range(34)]
+        self.top = [[AdaptiveBit() for _ in range(4)] for _ in range(34)]
+        self.sign = AdaptiveBit()
+
+    def decode(self, decoder, expected):
+        models = self.lengths[min(expected.bit_length(), 33)]
+        length = max(min(expected.bit_length(), 33), 1)
+
+        def reaches(least, step):
+            return least < 34 and models[step].decode(decoder)
+
+        step = 8
+        if reaches(length, step):
+            while True:
+                step = min(step + 1, STEPS - 1)
+                if not reaches(length + 1, step):
+                    break
+                length += 1
+        else:
+            length -= 1
+            while length > 0:
+                step = max(step, 1) - 1
+                if reaches(length, step):
+                    break
+                length -= 1
+        if length == 0:
+            return 0
+        negative = self.sign.decode(decoder)
+        value = 1
+        for _ in range(length - 1):
+            bit = self.top[length][value].decode(decoder) if value < 4 else decoder.decode(EVEN)
+            value = 2 * value + bit
+        return -value if negative else value
+
+
+FITTED, BY_SPREAD, SHIFTED, BASE, CONFORMAL, AFFINE, TIP, SAME, SIBLING, MIDDLE = range(10)
+
+
+def guess_at(kind, place, scale):
+    return Guess(kind, math.floor(place * 256 + 0.5) + 128, int(clamp(scale * 256, 64.0, 16777216.0)))
+
+
+@dataclass
+class Unfolded:
+    """Section 6: a known triangle."""
+    a: int
+    b: int
+    c: int
+    flat: bool
+    along: float = 0.0
+    beside: float = 0.0
+    c_along: float = 0.0
+    c_beside: float = 0.0
+
+
+class Predictor:
+    """Section 6."""
+
+    def __init__(self, sites, walk, tops, texture):
+        self.sites, self.walk, self.tops = sites, walk, tops
+        self.texture = texture and len(tops) >= 2
+        self.weights = [FeatureWeights() for _ in range(4)]
+        self.error = [0.0] * len(sites.grid)
+        self.sibling = {}
+        self.turning = 0
+        self.last = NONE
+        self.values = [None] * len(sites.grid)
+
+    def unfold(self, site, a, b, c):
+        grid = self.sites.grid
+        edge = [float(grid[b][i]) - float(grid[a][i]) for i in range(3)]
+        edge2 = 0.0
+        for d in edge:
+            edge2 = edge2 + d * d
+        if edge2 == 0:
+            return Unfolded(a, b, c, True)
+
+        def place(s):
+            dot, length2 = 0.0, 0.0
+            for i in range(3):
+                d = float(grid[s][i]) - float(grid[a][i])
+                dot = dot + d * edge[i]
+                length2 = length2 + d * d
+            along = dot / edge2
+            return along, math.sqrt(max(length2 / edge2 - along * along, 0.0))
+
+        out = Unfolded(a, b, c, False, *place(site))
+        if c != NONE:
+            out.c_along, out.c_beside = place(c)
+        return out
+
+    def side(self, t):
+        """1 left, -1 right."""
+        if t.c != NONE:
+            a, b, c = (self.values[s] for s in (t.a, t.b, t.c))
+            area = float(b[0] - a[0]) * float(c[1] - a[1]) - float(b[1] - a[1]) * float(c[0] - a[0])
+            if area != 0:
+                return -1.0 if area > 0 else 1.0
+        return 1.0 if self.turning >= 0 else -1.0
+
+    def start(self, turn):
+        self.site = site = self.walk.order[turn]
+        count = len(self.tops)
+        self.triangles = [self.unfold(site, *known) for known in self.walk.known[turn]]
+        mean, affine, conformal = [0.0] * count, [0.0] * count, [0.0] * count
+        tips, squares = [0.0] * count, [0.0] * count
+        self.tips = sum(1 for t in self.triangles if t.c != NONE)
+        near = 0.0
+        for t in self.triangles:
+            unfolds = t.c != NONE and not t.flat and t.c_beside > 0
+            ratio = min(t.beside / t.c_beside, 8.0) if unfolds else 0.0
+            for k in range(count):
+                a, b = float(self.values[t.a][k]), float(self.values[t.b][k])
+                mean[k] = mean[k] + (a + b) / 2
+                foot = a + t.along * (b - a)
+                if t.c == NONE:
+                    affine[k] = affine[k] + ((a + b) / 2 if t.flat else foot)
+                    continue
+                x = float(self.values[t.c][k])
+                tip = a + b - x
+                tips[k] = tips[k] + tip
+                squares[k] = squares[k] + tip * tip
+                affine[k] = affine[k] + (foot - ratio * (x - a - t.c_along * (b - a)) if unfolds else tip)
+            if self.texture:
+                side = self.side(t) * t.beside
+                u, v = (float(x) for x in self.values[t.a][:2])
+                du, dv = float(self.values[t.b][0]) - u, float(self.values[t.b][1]) - v
+                conformal[0] = conformal[0] + (u + t.along * du - side * dv)
+                conformal[1] = conformal[1] + (v + t.along * dv + side * du)
+            near = near + (self.error[t.a] + self.error[t.b])
+        self.near = near / (2 * float(len(self.triangles))) if self.triangles else 0.0
+        self.find_candidates()
+        w = self.weights[min(self.tips, 3)].solve()
+        self.base, self.fitted, self.features, self.spread = [], [], [], []
+        self.affine, self.conformal = affine, conformal
+        for k in range(count):
+            if not self.triangles:
+                near_value = self.candidates[0][0][k] if self.candidates else self.tops[k] / 2
+                base, features, spread = float(near_value), [0.0] * 3, 0.3
+            else:
+                n = float(len(self.triangles))
+                mean[k], affine[k], conformal[k] = mean[k] / n, affine[k] / n, conformal[k] / n
+                base = tips[k] / self.tips if self.tips else mean[k]
+                planar = self.texture and k < 2
+                features = [mean[k] - base, conformal[k] - base if planar else 0.0, affine[k] - base]
+                square = squares[k] / self.tips - base * base if self.tips else 0.0
+                spread = 0.3 + 0.7 * math.sqrt(max(square, 0.0))
+            fitted = base
+            for i in range(3):
+                fitted = fitted + w[i] * features[i]
+            self.base.append(base)
+            self.features.append(features)
+            self.spread.append(spread)
+            self.fitted.append(clamp(fitted, 0.0, float(self.tops[k])))
+        self.coded = []
+        self.error_sum = self.shift = 0.0
+
+    def find_candidates(self):
+        """[values, whether a sibling's, whether a channel so far is another]."""
+        sites = []
+        if self.sites.vertex is not None and self.sites.vertex[self.site] in self.sibling:
+            sites.append((self.sibling[self.sites.vertex[self.site]], True))
+        for t in self.triangles[:2]:
+            sites += [(t.a, False), (t.b, False)]
+        if not self.triangles and self.last != NONE:
+            sites.append((self.last, False))
+        self.candidates = []
+        for site, sibling in sites:
+            if all(self.values[site] != known[0] for known in self.candidates):
+                self.candidates.append([self.values[site], sibling, False])
+
+    def scale(self, k):
+        of_neighbours = self.near + 0.3
+        if k == 0:
+            return of_neighbours
+        return max((2 * of_neighbours + self.error_sum / float(k)) / 3, 0.3)
+
+    def guesses(self, k):
+        top = float(self.tops[k])
+        situation = 1 + min(self.tips, 3) if self.tips else (1 if self.triangles else 0)
+        scale = self.scale(k)
+        out = []
+
+        def add(kind, place, s):
+            out.append(guess_at(5 * kind + situation, place, s))
+
+        def cut(x):
+            return clamp(x, 0.0, top)
+
+        for values, sibling, missed in self.candidates:
+            kind = 5 * (SIBLING if sibling else SAME) + (0 if k == 0 else 2 if missed else 1)
+            out.append(guess_at(kind, float(values[k]), 0.3))
+        if not self.triangles:
+            add(BASE, self.base[k], scale)
+            add(MIDDLE, top / 2, top / 4 + 0.3)
+            return out
+        add(FITTED, self.fitted[k], scale)
+        if k > 0:
+            add(SHIFTED, cut(self.fitted[k] + self.shift), scale)
+        if self.tips < 2:
+            add(BASE, cut(self.base[k]), scale)
+        if self.tips > 0:
+            add(AFFINE, cut(self.affine[k]), scale)
+        if self.texture and k < 2:
+            add(CONFORMAL, cut(self.conformal[k]), scale)
+        if self.tips < 2:
+            return out
+        add(BY_SPREAD, self.fitted[k], self.spread[k])
+        for t in [t for t in self.triangles if t.c != NONE][:2]:
+            a, b, c = (float(self.values[s][k]) for s in (t.a, t.b, t.c))
+            add(TIP, cut(a + b - c), scale)
+        return out
+
+    def learn(self, k, value):
+        self.coded.append(value)
+        self.shift = float(value) - self.fitted[k]
+        self.error_sum = self.error_sum + abs(self.shift)
+        if self.triangles:
+            self.weights[min(self.tips, 3)].observe(self.features[k], self.near, self.shift, value - self.base[k])
+        for candidate in self.candidates:
+            candidate[2] = candidate[2] or candidate[0][k] != value
+        if k + 1 == len(self.tops):
+            self.finish()
+
+    def finish(self):
+        site = self.site
+        self.values[site] = self.coded
+        self.error[site] = f32(self.error_sum / float(len(self.tops)))
+        self.last = site
+        if self.sites.vertex is not None:
+            self.sibling[self.sites.vertex[site]] = site
+        if not self.texture or not self.triangles:
+            return
+        t = self.triangles[0]
+        a, b, x = self.values[t.a], self.values[t.b], self.coded
+        area = float(b[0] - a[0]) * float(x[1] - a[1]) - float(b[1] - a[1]) * float(x[0] - a[0])
+        if area != 0:
+            self.turning = clamp(self.turning + (1 if area > 0 else -1), -8, 8)
+
+
+def decode_values(decoder, sites, tops, texture):
+    """Sections 6 and 7: the integers of every site."""
+    walk = Walk(len(sites.grid), sites.triangles)
+    predictor = Predictor(sites, walk, tops, texture)
+    mixture = GuessMixture(50, 256)
+    differences = [Differences() for _ in tops]
+    for turn in range(len(walk.order)):
+        predictor.start(turn)
+        for k, top in enumerate(tops):
+            if top <= MOST_MIXED:
+                value = mixture.decode(decoder, predictor.guesses(k), top + 1)
+            else:
+                value = math.floor(predictor.fitted[k] + 0.5)
+                value += differences[k].decode(decoder, int(predictor.scale(k)))
+                require(0 <= value <= top, "an attribute's value is out of range")
+            predictor.learn(k, value)
+        decoder.check()
+    return predictor.values
+
+
+def decode_categories(decoder, faces, top):
+    """Section 8."""
+    corners = Corners(faces)
+    across = [[] for _ in faces]
+    for c, t in enumerate(corners.twin):
+        if t != NONE:
+            across[corners.face[c]].append(corners.face[t])
+    same, beside = {}, [AdaptiveBit() for _ in range(3)]
+    rank_model, new_model = ExpGolomb(), SignedInteger()
+    values, recent = [], []
+    newest, differs = -1, 0
+
+    def decode_new():
+        nonlocal newest
+        newest = clamp(newest + new_model.decode(decoder), 0, top + 1)
+        return newest
+
+    for f in range(len(faces)):
+        if f == 0:
+            value = decode_new()
+        else:
+            before = values[-1]
+            near = [values[g] for g in across[f] if g < f]
+            others = [x for x in near if x != before]
+            context = (min(len(near) - len(others), 2), min(len(others), 2), differs)
+            differs = 1 - same.setdefault(context, AdaptiveBit()).decode(decoder)
+            if not differs:
+                value = before
+            elif others and beside[context[0]].decode(decoder):
+                value = others[0]
+            else:
+                rank = rank_model.decode(decoder)
+                value = recent[rank] if rank < len(recent) else decode_new()
+        decoder.check()
+        require(value <= top, "an attribute's value is out of range")
+        if value in recent:
+            recent.remove(value)
+        recent = [value] + recent[:255]
+        values.append(value)
+    return [[x] for x in values]
+
+
+def decode_exceptions(decoder, count):
+    """Section 9: bits by number of the integer."""
+    number_model, gap_model = ExpGolomb(), ExpGolomb()
+    number = number_model.decode(decoder)
+    require(number <= count, "more exceptions than values")
+    exceptions, at = {}, 0
+    for _ in range(number):
+        at += gap_model.decode(decoder)
+        bits = 0
+        for _ in range(32):
+            bits = 2 * bits + decoder.decode(EVEN)
+        require(at < count, "an exception beyond the values")
+        decoder.check()
+        exceptions[at] = bits
+        at += 1
+    return exceptions
+
+
+def animated_sites(attribute, grid, faces):
+    section = read_body(attribute)
+    decoder = IntervalDecoder(section)
+    sites = decode_sites(decoder, attribute.domain, grid, faces)
+    decoder.check()
+    return sites
+
+
+def number_of(kind, scale, coordinate):
+    """Section 10: bits of a binary32, or an integer."""
+    number = scale * coordinate
+    if kind == BINARY32:
+        return struct.unpack("<I", struct.pack("<f", f32(clamp(number, -LARGEST_F32, LARGEST_F32))))[0]
+    low, high = RANGES[kind]
+    return int(clamp(math.floor(number + 0.5), low, high))
+
+
+def pack_frame(attribute, sites, scales, coordinates):
+    """`coordinates`: of each site, all channels."""
+    form = FORMATS[attribute.kind]
+    packed = [b"".join(struct.pack(form, number_of(attribute.kind, s, x)) for s, x in zip(scales, row))
+              for row in coordinates]
+    return b"".join(packed[site] for site in sites.of_element)
+
+
+def pack_normals(sites, positions):
+    """Section 11: normals computed from the positions of a frame."""
+    places = positions if sites.vertex is None else [positions[v] for v in sites.vertex]
+    sums = [[0.0] * 3 for _ in places]
+    for i in range(0, len(sites.triangles), 3):
+        corners = sites.triangles[i:i + 3]
+        p, q, r = (places[c] for c in corners)
+        u = [q[k] - p[k] for k in range(3)]
+        v = [r[k] - p[k] for k in range(3)]
+        area = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        for c in corners:
+            sums[c] = [s + a for s, a in zip(sums[c], area)]
+    packed = []
+    for x, y, z in sums:
+        length = math.sqrt(x * x + y * y + z * z)
+        scale = 1 / length if 0 < length < math.inf else 0.0
+        scale = scale if 0 < scale < math.inf else 0.0
+        packed.append(struct.pack("<3f", *((f32(s * scale) for s in (x, y, z)) if scale > 0 else (0.0, 0.0, 0.0))))
+    return b"".join(packed[site] for site in sites.of_element)
+
+
+def decode_static(attribute, grid, faces):
+    """The bytes of all values, element after element."""
+    section = read_body(attribute)
+    decoder = IntervalDecoder(section)
+    sites = decode_sites(decoder, attribute.domain, grid, faces)
+    if attribute.categorical():
+        integers = decode_categories(decoder, faces, attribute.channels[0].top)
+    else:
+        tops = [channel.top for channel in attribute.channels]
+        integers = decode_values(decoder, sites, tops, attribute.semantic == TEXTURE_COORDINATE)
+    exceptions = {}
+    if attribute.kind == BINARY32:
+        exceptions = decode_exceptions(decoder, len(integers) * attribute.channel_count)
+    decoder.check()
+    numbers = [[c.number(attribute.kind, n) for c, n in zip(attribute.channels, row)] for row in integers]
+    for at, bits in exceptions.items():
+        numbers[at // attribute.channel_count][at % attribute.channel_count] = bits
+    packed = [b"".join(struct.pack(FORMATS[attribute.kind], x) for x in row) for row in numbers]
+    return b"".join(packed[site] for site in sites.of_element)

@@ -1,0 +1,135 @@
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/codec/attributes/samples.h"
+#include "tests/codec/round_trip.h"
+#include "tests/codec/shapes.h"
+
+using namespace reeb;
+using namespace reeb::test;
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Unit normal of a flat face, from its first three corners.
+Vector face_normal(const Shot& shot, size_t face, uint32_t t) {
+  size_t first = 0;
+  for (size_t f = 0; f < face; ++f) first += shot.connectivity.face_sizes[f];
+  Vector p[3];
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t a = 0; a < 3; ++a)
+      p[i][a] = static_cast<double>(shot.frame(t)[3 * shot.connectivity.corners[first + i] + a]);
+  }
+  Vector u, v;
+  for (size_t a = 0; a < 3; ++a) {
+    u[a] = p[1][a] - p[0][a];
+    v[a] = p[2][a] - p[0][a];
+  }
+  Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double length = std::hypot(n[0], n[1], n[2]);
+  for (double& x : n) x /= length;
+  return n;
+}
+
+/// A normal at every corner: that of its face.
+Attribute flat_normals(const Shot& shot) {
+  std::vector<float> values;
+  for (size_t f = 0; f < shot.connectivity.face_sizes.size(); ++f) {
+    const Vector n = face_normal(shot, f, 0);
+    for (uint32_t i = 0; i < shot.connectivity.face_sizes[f]; ++i) {
+      for (const double x : n) values.push_back(static_cast<float>(x));
+    }
+  }
+  Attribute out = make("vn", Domain::kCorner, ValueType::kBinary32, 3, values);
+  out.semantic = Semantic::kNormal;
+  out.max_angle = 2;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("hard edges stay hard in every frame, and cost seams alone", "[attributes]") {
+  Shape shape = torus(16, 10);
+  for (size_t i = 0; i < shape.positions.size(); ++i)  // no two triangles in one plane
+    shape.positions[i] *= 1 + 0.05f * static_cast<float>(std::sin(static_cast<double>(i * i)));
+  Shot shot = animate(shape, 6);
+  EncodeOptions options;
+  options.target = Target::kLossless;
+  const size_t bare = encode_or_fail(sequence_of({shot}), options).bytes.size();
+  shot.attributes = {flat_normals(shot)};
+  shot.attributes[0].max_angle = 1e-4;  // every edge is a seam
+  const Bytes bytes = encode_or_fail(sequence_of({shot}), options).bytes;
+  const Shot decoded = decode_or_fail(bytes).shots[0];
+  REQUIRE(decoded.attributes.size() == 1);
+  const Attribute& normals = decoded.attributes[0];
+  CHECK(normals.animated);
+  CHECK(normals.semantic == Semantic::kNormal);
+  REQUIRE(normals.values.size() == 6 * shot.attributes[0].values.size());
+  const size_t corners = shot.connectivity.corners.size();
+  double worst = 0;
+  for (uint32_t t = 0; t < 6; ++t) {
+    for (size_t f = 0; f < shot.connectivity.face_sizes.size(); ++f) {
+      const Vector n = face_normal(decoded, f, t);
+      for (size_t i = 0; i < 9; ++i) {
+        const auto x = normals.get<float>((t * corners + 3 * f) * 3 + i);
+        worst = std::max(worst, std::abs(static_cast<double>(x) - n[i % 3]));
+      }
+    }
+  }
+  CHECK(worst < 1e-6);
+  constexpr double kHeader = 24;  // bytes
+  CHECK(static_cast<double>(bytes.size() - bare) <=
+        kHeader + 0.2 * static_cast<double>(corners) / 8);
+
+  std::unique_ptr<Decoder> decoder;
+  REQUIRE(Decoder::open(bytes, {}, decoder).ok());
+  Attribute one;
+  REQUIRE(decoder->decode_attribute(4, 0, one).ok());
+  CHECK(std::equal(one.values.begin(), one.values.end(),
+                   normals.values.begin() + static_cast<ptrdiff_t>(4 * corners * 12)));
+}
+
+TEST_CASE("normals that differ from computed ones are coded", "[attributes]") {
+  Shot shot = animate(torus(8, 6), 2);
+  Attribute turned = flat_normals(shot);
+  for (size_t i = 0; i + 12 <= turned.values.size(); i += 12)
+    std::swap_ranges(turned.values.begin() + static_cast<ptrdiff_t>(i),
+                     turned.values.begin() + static_cast<ptrdiff_t>(i + 4),
+                     turned.values.begin() + static_cast<ptrdiff_t>(i + 4));
+  shot.attributes = {turned};
+  EncodeOptions options;
+  options.target = Target::kLossless;
+  const Shot decoded = decode_or_fail(encode_or_fail(sequence_of({shot}), options).bytes).shots[0];
+  CHECK(!decoded.attributes[0].animated);
+  CHECK(decoded.attributes[0].values == turned.values);
+}
+
+TEST_CASE("bounds of groups hold all positions and no more", "[attributes]") {
+  const Sequence sequence = sequence_of({animate(torus(8, 6), 7), animate(grid(4, 4), 2)});
+  EncodeOptions options = quick_options();
+  options.group_length = 3;
+  options.bounds = true;
+  const Bytes bytes = encode_or_fail(sequence, options).bytes;
+  const Sequence decoded = decode_or_fail(bytes);
+  std::unique_ptr<Decoder> decoder;
+  REQUIRE(Decoder::open(bytes, {}, decoder).ok());
+  const StreamInfo& info = decoder->info();
+  REQUIRE(info.bounds.size() == 4);
+  for (size_t g = 0; g < info.groups.size(); ++g) {
+    const Shot& shot = decoded.shots[info.groups[g].shot];
+    const uint32_t first = info.groups[g].first_frame - info.shots[info.groups[g].shot].first_frame;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      float low = INFINITY, high = -INFINITY;
+      for (uint32_t t = first; t < first + info.groups[g].frame_count; ++t) {
+        for (size_t i = axis; i < shot.frame(t).size(); i += 3) {
+          low = std::min(low, shot.frame(t)[i]);
+          high = std::max(high, shot.frame(t)[i]);
+        }
+      }
+      CHECK(info.bounds[g].low[axis] == low);
+      CHECK(info.bounds[g].high[axis] == high);
+    }
+  }
+}
