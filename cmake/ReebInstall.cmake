@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, by component: decoder (the C library, shared), decoder_static, encoder (C++ static
-# libraries and headers), tools (the reeb command and its manual page).
+# libraries and headers), tools (the reeb command, its manual page and completions).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/reeb)
@@ -69,6 +69,15 @@ if(REEB_BUILD_ENCODER)
       FILES ${PROJECT_BINARY_DIR}/tools/reeb.1
       DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
       COMPONENT tools)
+    foreach(place bash:bash-completion/completions/reeb zsh:zsh/site-functions/_reeb
+                  fish:fish/vendor_completions.d/reeb.fish)
+      string(REGEX MATCH "^([a-z]+):(.*)/([^/]+)$" place ${place})
+      install(
+        FILES ${PROJECT_BINARY_DIR}/tools/completion.${CMAKE_MATCH_1}
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/${CMAKE_MATCH_2}
+        RENAME ${CMAKE_MATCH_3}
+        COMPONENT tools)
+    endforeach()
   endif()
   foreach(component encoder tools)
     reeb_install_package_files(${component})

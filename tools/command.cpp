@@ -3,8 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <utility>
+
+#include "tools/io/mesh_file.h"
+#include "tools/io/point_cache.h"
+#include "tools/io/standard_output.h"
 
 namespace reeb::tools {
 namespace {
@@ -28,11 +33,11 @@ void add_console_options(CLI::App& command, ConsoleOptions& options) {
                                                   {"never", ProgressMode::kNever}};
   command
       .add_option("--progress", options.progress,
-                  "Progress bar: auto (on a terminal), always or never; default auto")
+                  "Progress bar: auto is on a terminal; default auto")
       ->transform(CLI::Transformer(modes).description(""))
       ->check(CLI::IsMember({ProgressMode::kAuto, ProgressMode::kAlways, ProgressMode::kNever})
                   .description(""))
-      ->type_name("MODE")
+      ->type_name("auto|always|never")
       ->group(group);
 }
 
@@ -62,6 +67,42 @@ int fail(Console& console, const Status& status) {
   return kExitFailed;
 }
 
+int print(const std::string& text) {
+  const Status status = write_standard_output(text);
+  if (status.ok()) return kExitDone;
+  Console console{ConsoleOptions()};
+  return fail(console, status);
+}
+
+std::vector<std::vector<std::string>> split_sequences(const std::vector<std::string>& names,
+                                                      size_t least) {
+  std::vector<std::vector<std::string>> out;
+  size_t count = names.size();
+  for (const std::string& name : names) {
+    const bool paired = count > least && !out.empty() && out.back().size() == 1 &&
+                        mesh_format(out.back()[0]) && cache_format(name);
+    if (paired) {
+      out.back().push_back(name);
+      --count;
+    } else {
+      out.push_back({name});
+    }
+  }
+  return out;
+}
+
+std::string check_extension(const std::string& output, const std::string& extension) {
+  std::error_code ignored;
+  const bool plain_file =
+      !is_standard_output(output) && !std::filesystem::is_other(output, ignored);
+  const std::string found = std::filesystem::path(output).extension().string();
+  if (!plain_file || CLI::detail::to_lower(found) == extension) return {};
+  return output + " does not end in " + extension + ", which this command writes" +
+         (extension == ".reeb" && (mesh_format(output) || cache_format(output))
+              ? "; reeb decode writes meshes"
+              : "");
+}
+
 std::string parse_absolute_or_percent(const std::string& text, AbsoluteOrPercent& out) {
   std::string rest;
   if (!parse_positive(text, out.value, rest) || (!rest.empty() && rest != "%")) {
@@ -72,15 +113,17 @@ std::string parse_absolute_or_percent(const std::string& text, AbsoluteOrPercent
 }
 
 std::string parse_byte_count(const std::string& text, double& out) {
-  static constexpr std::array<std::pair<const char*, double>, 9> kUnits{{{"", 1},
-                                                                         {"B", 1},
-                                                                         {"k", 1e3},
-                                                                         {"kB", 1e3},
-                                                                         {"M", 1e6},
-                                                                         {"MB", 1e6},
-                                                                         {"KiB", 1024},
-                                                                         {"MiB", 1048576},
-                                                                         {"GiB", 1073741824}}};
+  static constexpr std::array<std::pair<const char*, double>, 11> kUnits{{{"", 1},
+                                                                          {"B", 1},
+                                                                          {"k", 1e3},
+                                                                          {"kB", 1e3},
+                                                                          {"M", 1e6},
+                                                                          {"MB", 1e6},
+                                                                          {"G", 1e9},
+                                                                          {"GB", 1e9},
+                                                                          {"KiB", 1024},
+                                                                          {"MiB", 1048576},
+                                                                          {"GiB", 1073741824}}};
   std::string rest;
   if (parse_positive(text, out, rest)) {
     for (const auto& [unit, scale] : kUnits) {
@@ -89,7 +132,7 @@ std::string parse_byte_count(const std::string& text, double& out) {
       if (out >= 1) return {};
     }
   }
-  return "'" + text + "' is not a number of bytes (suffixes k, M, KiB, MiB, GiB)";
+  return "'" + text + "' is not a number of bytes (suffixes k, M, G, KiB, MiB, GiB)";
 }
 
 }  // namespace reeb::tools

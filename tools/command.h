@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "bitstream/status.h"
 #include "tools/console.h"
@@ -18,6 +19,7 @@ inline constexpr int kExitOverTolerance = 3;  ///< a comparison
 void add_encode_command(CLI::App& app, int& exit_code);
 void add_decode_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
+void add_verify_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_sample_command(CLI::App& app, int& exit_code);
 void add_picture_command(CLI::App& app, int& exit_code);
@@ -36,6 +38,18 @@ std::string check_not_negative(const std::string& text);
 /// Shows the message of a failed status and gives its exit code.
 int fail(Console& console, const Status& status);
 
+/// Writes to standard output and gives the exit code; a full device or a closed pipe is an error.
+int print(const std::string& text);
+
+/// The names of several sequences: a mesh before a point cache goes with it, from the left, as long
+/// as more than `least` sequences remain.
+std::vector<std::vector<std::string>> split_sequences(const std::vector<std::string>& names,
+                                                      size_t least);
+
+/// Empty where `output` ends in `extension`, in any case, or is no plain file; what is wrong
+/// otherwise.
+std::string check_extension(const std::string& output, const std::string& extension);
+
 /// A positive number with an optional suffix: "0.01" or "0.1%".
 struct AbsoluteOrPercent {
   double value = 0;
@@ -48,7 +62,7 @@ struct AbsoluteOrPercent {
 /// Empty where `text` is good, what is wrong otherwise (as CLI11 wants its checks).
 std::string parse_absolute_or_percent(const std::string& text, AbsoluteOrPercent& out);
 
-/// "1500000", "1.5M", "2MiB", "500k", "64KiB", "1G", "1GiB": bytes. Result as above.
+/// "1500000", "1.5M", "2MiB", "500k", "64KiB", "2G", "1GiB": bytes. Result as above.
 std::string parse_byte_count(const std::string& text, double& out);
 
 }  // namespace reeb::tools

@@ -1,11 +1,14 @@
-#include <cstdio>
-#include <iostream>
+#include <algorithm>
+#include <iomanip>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "tools/command.h"
+#include "tools/damage.h"
+#include "tools/frame_selection.h"
 #include "tools/io/read_sequence.h"
+#include "tools/json.h"
 #include "tools/metrics.h"
 #include "tools/text.h"
 
@@ -14,13 +17,14 @@ namespace compare_command {
 namespace {
 
 struct Options {
-  std::string original;
-  std::string other;
+  std::vector<std::string> inputs;
+  FrameSelection frames;
   std::optional<double> kg_tolerance;
   std::optional<AbsoluteOrPercent> error_tolerance;
   bool json = false;
   bool per_frame = false;
   bool allow_gaps = false;
+  bool keep_going = false;
   unsigned threads = 0;
   ConsoleOptions console;
 };
@@ -30,12 +34,13 @@ struct Side {
   std::string name;
   Sequence sequence;
   ReadReport report;
+  uint32_t total_frames = 0;      ///< missing ones included
+  std::vector<uint32_t> present;  ///< numbers, from 1, of the frames that are there
+  double units = 0;               ///< vertices times frames of all of them
 
   /// 0 where the side is not a `.reeb` file.
   double bpvf() const {
-    if (!report.stream) return 0;
-    return 8 * static_cast<double>(report.stream->file_bytes) /
-           static_cast<double>(vertex_frames(sequence));
+    return report.stream ? 8 * static_cast<double>(report.stream->file_bytes) / units : 0;
   }
   bool reordered() const {
     if (!report.stream) return false;
@@ -44,27 +49,71 @@ struct Side {
     }
     return false;
   }
+  bool has(uint32_t number) const {
+    return std::binary_search(present.begin(), present.end(), number);
+  }
+  std::string damage() const { return describe_missing(name, report.missing, total_frames); }
+
+  /// Keeps the frames called `numbers`, all of which are there.
+  void keep(const std::vector<uint32_t>& numbers) {
+    if (numbers == present) return;
+    std::vector<uint32_t> places;
+    for (const uint32_t number : numbers) {
+      const auto at = std::lower_bound(present.begin(), present.end(), number);
+      places.push_back(static_cast<uint32_t>(at - present.begin()) + 1);
+    }
+    report.remainders = pick_remainders(sequence, report.remainders, places);
+    sequence = pick_frames(sequence, places);
+  }
 };
 
-Status load(const Options& o, const std::string& name, Console& console, Side& side) {
-  side.name = name;
+Status load(const Options& o, const std::vector<std::string>& names, Console& console, Side& side) {
+  side.name = names.back();
   Status status = read_sequence(
-      {name},
-      {.threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")},
+      names, {.threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")},
       side.sequence, side.report);
-  if (status.ok()) console.say_all(side.report.notes);
-  return status;
+  if (!status.ok()) return status;
+  console.say_all(side.report.notes);
+  side.units = static_cast<double>(vertex_frames(side.sequence));
+  side.total_frames =
+      side.report.stream ? side.report.stream->total_frames : side.sequence.frame_count();
+  side.present = present_frames(side.report.missing, side.total_frames);
+  return {};
 }
 
-nlohmann::ordered_json to_json(const ErrorFigures& f) {
+/// Leaves in both sides the frames that were asked for and that both have.
+Status choose_frames(const Options& o, Side& a, Side& b, std::vector<uint32_t>& numbers) {
+  if (a.total_frames != b.total_frames) {
+    return Status::invalid(grouped(a.total_frames) + " against " +
+                           counted(b.total_frames, "frame") +
+                           "; only sequences of equal length can be compared");
+  }
+  if (Status status = o.frames.numbers(a.total_frames, numbers); !status.ok()) return status;
+  std::erase_if(numbers, [&](uint32_t frame) { return !a.has(frame) || !b.has(frame); });
+  if (numbers.empty()) return Status::corrupt("no frame can be decoded on both sides");
+  a.keep(numbers);
+  b.keep(numbers);
+  return {};
+}
+
+/// What is to be told.
+struct Result {
+  const Side& a;
+  const Side& b;
+  const Comparison& comparison;
+  const std::vector<uint32_t>& numbers;  ///< of the frames compared
+};
+
+Json to_json(const ErrorFigures& f) {
   return {{"kg", f.kg}, {"rmse", f.rmse}, {"max_error", f.max_error}};
 }
 
-void print_json(const Options& o, const Side& a, const Side& b, const Comparison& c, bool within) {
-  nlohmann::ordered_json json = to_json(c.overall);
+std::string json_text(const Options& o, const Result& r, bool within) {
+  const Comparison& c = r.comparison;
+  Json json = to_json(c.overall);
   json["max_error_percent_of_diagonal"] = 100 * c.relative_max_error();
   json["diagonal"] = c.diagonal;
-  json["max_error_frame"] = c.max_frame + 1;
+  json["max_error_frame"] = r.numbers[c.max_frame];
   json["max_error_vertex"] = c.max_vertex + 1;
   json["identical"] = c.identical;
   json["frames"] = c.frames.size();
@@ -75,76 +124,94 @@ void print_json(const Options& o, const Side& a, const Side& b, const Comparison
     json[key]["bytes"] = side.report.stream->file_bytes;
     json[key]["bpvf"] = side.bpvf();
   };
-  add_side("original", a);
-  add_side("other", b);
+  add_side("original", r.a);
+  add_side("other", r.b);
   if (o.per_frame) {
-    json["per_frame"] = nlohmann::ordered_json::array();
+    json["per_frame"] = Json::array();
     for (const ErrorFigures& f : c.frames) json["per_frame"].push_back(to_json(f));
   }
-  std::cout << json.dump(2) << "\n";
+  return dump(json);
 }
 
-void print_text(const Options& o, const Side& a, const Side& b, const Comparison& c) {
+std::string plain_text(const Options& o, const Result& r) {
+  const Comparison& c = r.comparison;
+  std::ostringstream out;
   if (o.per_frame) {
-    std::printf("%8s %12s %12s %12s\n", "frame", "KG %", "RMSE", "maximum");
+    const auto row = [&](const std::string& frame, const std::string& kg, const std::string& rmse,
+                         const std::string& most) {
+      out << std::setw(8) << frame << std::setw(13) << kg << std::setw(13) << rmse << std::setw(13)
+          << most << "\n";
+    };
+    row("frame", "KG %", "RMSE", "maximum");
     for (size_t t = 0; t < c.frames.size(); ++t) {
       const ErrorFigures& f = c.frames[t];
-      std::printf("%8zu %12.5g %12.5g %12.5g\n", t + 1, f.kg, f.rmse, f.max_error);
+      row(grouped(r.numbers[t]), plain(f.kg, 5), plain(f.rmse, 5), plain(f.max_error, 5));
     }
   }
-  std::printf("KG error       %s %%\n", brief(c.overall.kg, 5).c_str());
-  std::printf("RMSE           %s\n", brief(c.overall.rmse, 5).c_str());
-  std::printf("maximum error  %s (%s %% of the diagonal), frame %s, vertex %s\n",
-              brief(c.overall.max_error, 5).c_str(), brief(100 * c.relative_max_error(), 5).c_str(),
-              grouped(c.max_frame + 1).c_str(), grouped(c.max_vertex + 1).c_str());
-  for (const Side* side : {&a, &b}) {
+  out << "KG error       " << plain(c.overall.kg, 5) << " %\n"
+      << "RMSE           " << plain(c.overall.rmse, 5) << "\n"
+      << "maximum error  " << plain(c.overall.max_error, 5) << " ("
+      << plain(100 * c.relative_max_error(), 5) << " % of the diagonal), frame "
+      << grouped(r.numbers[c.max_frame]) << ", vertex " << grouped(c.max_vertex + 1) << "\n";
+  for (const Side* side : {&r.a, &r.b}) {
     if (!side->report.stream) continue;
-    std::printf("%s: %s, %s bits per vertex and frame\n", side->name.c_str(),
-                byte_size(side->report.stream->file_bytes).c_str(), brief(side->bpvf(), 5).c_str());
+    out << side->name << ": " << byte_size(side->report.stream->file_bytes) << ", "
+        << plain(side->bpvf(), 5) << " bits per vertex and frame\n";
   }
-  if (c.identical) std::printf("the positions are identical\n");
+  if (c.identical) out << "the positions are identical\n";
+  return out.str();
 }
 
 // What exceeds the tolerances; empty where nothing does.
 std::string excess(const Options& o, const Comparison& c) {
   std::string out;
   if (o.kg_tolerance && !(c.overall.kg <= *o.kg_tolerance)) {
-    out = "KG error " + brief(c.overall.kg, 6) + " % is over " + brief(*o.kg_tolerance, 6) + " %";
+    out = "KG error " + plain(c.overall.kg, 6) + " % is over " + plain(*o.kg_tolerance, 6) + " %";
   }
   if (o.error_tolerance) {
     const double limit = o.error_tolerance->of(c.diagonal);
     if (!(c.overall.max_error <= limit)) {
       out += (out.empty() ? "" : "; ") + std::string("maximum error ") +
-             brief(c.overall.max_error, 6) + " is over " + brief(limit, 6);
+             plain(c.overall.max_error, 6) + " is over " + plain(limit, 6);
     }
   }
   return out;
 }
 
+int report_difference(const Side& a, const Side& b, const Status& status, Console& console) {
+  console.error(a.name + " against " + b.name + ": " + status.message());
+  if (a.reordered() != b.reordered()) {
+    console.error("one side was encoded with --reorder, its vertices are in another order");
+  }
+  return kExitFailed;
+}
+
 int run(const Options& o) {
   Console console(o.console);
+  const auto sides = split_sequences(o.inputs, 2);
+  if (sides.size() != 2) {
+    console.error("two sequences are compared, each by one name, or a mesh and its point cache");
+    return kExitUsage;
+  }
   Side a;
   Side b;
-  Status status = load(o, o.original, console, a);
-  if (status.ok()) status = load(o, o.other, console, b);
+  Status status = load(o, sides[0], console, a);
+  if (status.ok()) status = load(o, sides[1], console, b);
   if (!status.ok()) return fail(console, status);
+  std::vector<uint32_t> numbers;
   Comparison comparison;
-  status = compare_sequences(a.sequence, b.sequence, comparison, a.report.remainders,
-                             b.report.remainders);
-  if (!status.ok()) {
-    console.error(a.name + " against " + b.name + ": " + status.message());
-    if (a.reordered() != b.reordered()) {
-      console.error("one side was encoded with --reorder, its vertices are in another order");
-    }
-    return kExitFailed;
+  status = choose_frames(o, a, b, numbers);
+  if (status.ok()) {
+    status = compare_sequences(a.sequence, b.sequence, comparison, a.report.remainders,
+                               b.report.remainders);
   }
+  if (!status.ok()) return report_difference(a, b, status, console);
   const std::string over = excess(o, comparison);
-  if (o.json) {
-    print_json(o, a, b, comparison, over.empty());
-  } else {
-    print_text(o, a, b, comparison);
-  }
-  if (over.empty()) return kExitDone;
+  const Result result{a, b, comparison, numbers};
+  int exit_code = print(o.json ? json_text(o, result, over.empty()) : plain_text(o, result));
+  for (const Side* side : {&a, &b})
+    exit_code = std::max(exit_code, finish_damaged(console, side->damage(), o.keep_going));
+  if (over.empty() || exit_code != kExitDone) return exit_code;
   console.error(over);
   return kExitOverTolerance;
 }
@@ -156,15 +223,17 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   using namespace compare_command;
   auto* command = app.add_subcommand("compare", "Measure how far one sequence is from another");
   auto o = std::make_shared<Options>();
-  const std::string sequence =
-      ": a folder, a quoted pattern, a point cache with its mesh beside it, "
-      "or a .reeb file";
-  command->add_option("ORIGINAL", o->original, "The original" + sequence)
+  command
+      ->add_option("SEQUENCE", o->inputs,
+                   "The original and the other one, each a folder, a quoted pattern, a .reeb file, "
+                   "or a point cache with its mesh beside it or named before it")
       ->required()
+      ->expected(2, 4)
       ->type_name("");
-  command->add_option("OTHER", o->other, "The other sequence, likewise")->required()->type_name("");
   command->add_flag("--json", o->json, "As JSON");
   command->add_flag("--per-frame", o->per_frame, "Figures of every frame too");
+  add_frames_option(*command, o->frames, "all");
+  add_keep_going_option(*command, o->keep_going);
   command->add_flag("--allow-gaps", o->allow_gaps, "Missing frame numbers are not an error");
   command->add_option("--tolerance", o->kg_tolerance, "KG error allowed, in percent, >= 0")
       ->check(check_not_negative)

@@ -3,13 +3,32 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
+
+#include "tools/terminal.h"
 
 namespace reeb::tools {
 namespace {
 
-constexpr int kBarWidth = 30;
+constexpr size_t kBarWidth = 30, kLeastBarWidth = 5;
+constexpr size_t kTimeWidth = 15;      ///< of ", 1:00:00 left"
+constexpr double kSecondsUnknown = 2;  ///< before, the time to go would be a guess
 constexpr std::chrono::milliseconds kBarInterval(100);
+
+/// "0:07", "12:34", "1:02:03".
+std::string clock_text(double seconds) {
+  const auto s = static_cast<unsigned long long>(std::ceil(seconds));
+  std::array<char, 48> text{};
+  if (s < 3600) {
+    std::snprintf(text.data(), text.size(), "%llu:%02llu", s / 60, s % 60);
+  } else {
+    std::snprintf(text.data(), text.size(), "%llu:%02llu:%02llu", s / 3600, s / 60 % 60, s % 60);
+  }
+  return text.data();
+}
 
 void print_line(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
@@ -45,15 +64,25 @@ std::function<void(double)> Console::bar(const std::string& label) {
   return [this, label](double done) { draw(label, done); };
 }
 
+// A bar never goes back.
 void Console::draw(const std::string& label, double done) {
   const auto now = std::chrono::steady_clock::now();
-  if (bar_visible_ && done < 1 && now - last_draw_ < kBarInterval) return;
+  if (label != label_) {
+    label_ = label;
+    part_ = 0;
+    start_ = now;
+  }
+  const double part = std::clamp(done, part_, 1.0);
+  const bool finished = part == 1 && part_ < 1;
+  part_ = part;
+  if (bar_visible_ && !finished && now - last_draw_ < kBarInterval) return;
   last_draw_ = now;
   bar_visible_ = true;
-  const double part = std::clamp(done, 0.0, 1.0);
-  const auto filled = static_cast<size_t>(part * kBarWidth);
-  const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, ' ');
-  std::fprintf(stderr, "\r%-8s [%s] %3.0f %%", label.c_str(), bar.c_str(), 100 * part);
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double left = seconds < kSecondsUnknown || part == 0 ? -1 : seconds * (1 - part) / part;
+  // One column stays free, since some terminals wrap after the last.
+  std::fprintf(stderr, "\r%s\033[K",
+               bar_text(label, part, left, terminal_width(stderr) - 1).c_str());
   std::fflush(stderr);
 }
 
@@ -61,6 +90,24 @@ void Console::clear_bar() {
   if (!bar_visible_) return;
   std::fputs("\r\033[K", stderr);
   bar_visible_ = false;
+}
+
+std::string bar_text(const std::string& label, double part, double seconds_left, size_t width) {
+  std::array<char, 16> percent{};
+  std::snprintf(percent.data(), percent.size(), "%3.0f %%", std::floor(100 * part));
+  std::string text = label + " ";
+  const size_t rest = text.size() + std::strlen(percent.data()) + 3;
+  const size_t room = width > rest ? width - rest : 0;
+  const bool timed = room >= kLeastBarWidth + kTimeWidth;
+  const size_t bar = std::min(kBarWidth, timed ? room - kTimeWidth : room);
+  if (bar >= kLeastBarWidth) {
+    const auto filled = static_cast<size_t>(part * static_cast<double>(bar));
+    text.append("[").append(filled, '#').append(bar - filled, ' ').append("] ");
+  }
+  text += percent.data();
+  if (timed && seconds_left >= 0)
+    text.append(", ").append(clock_text(seconds_left)).append(" left");
+  return text.substr(0, width);
 }
 
 }  // namespace reeb::tools

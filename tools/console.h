@@ -42,7 +42,13 @@ class Console {
   ConsoleOptions options_;
   bool show_bar_;
   bool bar_visible_ = false;
-  std::chrono::steady_clock::time_point last_draw_;
+  std::string label_;  ///< of the bar drawn last
+  double part_ = 0;    ///< that it showed
+  std::chrono::steady_clock::time_point start_, last_draw_;
 };
+
+/// "reading [####      ]  40 %, 1:05 left" in at most `width` columns: on a narrow terminal without
+/// the time, then without the bar. `seconds_left` below 0: unknown.
+std::string bar_text(const std::string& label, double part, double seconds_left, size_t width);
 
 }  // namespace reeb::tools

@@ -1,10 +1,13 @@
-#include <charconv>
+#include <algorithm>
 #include <memory>
 
 #include "codec/dec/decoder.h"
 #include "tools/command.h"
+#include "tools/damage.h"
+#include "tools/frame_selection.h"
 #include "tools/io/file_bytes.h"
 #include "tools/io/point_cache.h"
+#include "tools/io/standard_output.h"
 #include "tools/io/write_sequence.h"
 #include "tools/text.h"
 
@@ -12,79 +15,121 @@ namespace reeb::tools {
 namespace decode_command {
 namespace {
 
-/// Frames from 1, as typed; 0 = an end left open.
-struct FrameRange {
-  uint32_t first = 0;
-  uint32_t last = 0;
-};
-
 struct Options {
   std::string input;
   std::string output;
-  FrameRange range;
+  std::string format;
+  FrameSelection frames;
+  std::optional<double> frame_rate;
   bool reverse = false;
   bool overwrite = false;
+  bool keep_going = false;
   unsigned threads = 0;
   ConsoleOptions console;
 };
 
-// A frame number, or 0 for nothing.
-bool parse_frame(std::string_view text, uint32_t& frame) {
-  frame = 0;
-  if (text.empty()) return true;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
-  return error == std::errc() && stop == text.data() + text.size() && frame > 0;
-}
+/// Writes the frames of one stream.
+class StreamWriter {
+ public:
+  StreamWriter(const Options& options, Decoder& decoder, Console& console)
+      : options_(options), decoder_(decoder), console_(console), missing_(decoder.info().missing) {}
 
-bool parse_range(const std::string& text, FrameRange& range) {
-  const size_t colon = text.find(':');
-  const std::string_view view(text);
-  if (!parse_frame(view.substr(0, colon), range.first)) return false;
-  if (colon == text.npos) {
-    range.last = range.first;
-    return range.first != 0;
+  int run() {
+    const StreamInfo& info = decoder_.info();
+    Status status = options_.frames.numbers(info.total_frames, wanted_);
+    if (!status.ok()) return fail(console_, named(status));
+    if (options_.reverse) std::reverse(wanted_.begin(), wanted_.end());
+    OutputName name;
+    status = parse_output_name(options_.output, static_cast<uint32_t>(wanted_.size()),
+                               options_.format, name);
+    if (!status.ok()) {
+      console_.error(status.message());
+      return kExitUsage;
+    }
+    status = write_present();
+    if (status.code() == StatusCode::kCorrupt && !searched_) status = write_after_search();
+    if (!status.ok()) return fail(console_, status);
+    console_.say(options_.output + ": " + counted(written_, "frame"));
+    return finish_damaged(console_, written_ == wanted_.size() ? "" : missing_text(),
+                          options_.keep_going);
   }
-  return parse_frame(view.substr(colon + 1), range.last);
-}
 
-// The numbers of the frames to decode, in order of output.
-Status select_frames(const FrameRange& range, bool reverse, uint32_t count,
-                     std::vector<uint32_t>& out) {
-  uint32_t a = range.first == 0 ? 1 : range.first;
-  uint32_t b = range.last == 0 ? count : range.last;
-  if (a > count || b > count) {
-    return Status::invalid("frame " + grouped(std::max(a, b)) +
-                           " does not exist; there are frames 1 to " + grouped(count));
+ private:
+  Status named(const Status& status) const {
+    return {status.code(), options_.input + ": " + status.message()};
   }
-  if (reverse) std::swap(a, b);
-  for (uint32_t t = a;; a < b ? ++t : --t) {
-    out.push_back(t);
-    if (t == b) return {};
+  std::string missing_text() const {
+    return describe_missing(options_.input, missing_, decoder_.info().total_frames);
   }
-}
 
-FrameSource make_source(Decoder& decoder, const std::vector<uint32_t>& frames) {
-  const StreamInfo& info = decoder.info();
-  FrameSource source;
-  source.frame_rate = info.frame_rate;
-  const bool forward = frames.front() <= frames.back();
-  // A reversed sequence is a new one, with numbers and times from its own start.
-  source.start_time = info.start_time + (forward ? frames.front() - 1 : 0);
-  for (uint32_t i = 0; i < frames.size(); ++i) {
-    source.numbers.push_back(forward ? frames[i] : i + 1);
+  // Damage that checksums do not show is met while decoding: then all of it is looked for.
+  Status write_after_search() {
+    searched_ = true;
+    Status status = find_missing(decoder_, console_.bar("checking"), missing_);
+    return status.ok() ? write_present() : named(status);
   }
-  for (const auto& [key, value] : info.metadata) {
-    if (key == kSampleRateKey) source.frames_per_sample = std::strtod(value.c_str(), nullptr);
+
+  Status write_present() {
+    const std::vector<uint32_t> present = present_frames(missing_, decoder_.info().total_frames);
+    std::vector<uint32_t> frames;
+    for (const uint32_t frame : wanted_) {
+      if (std::binary_search(present.begin(), present.end(), frame)) frames.push_back(frame);
+    }
+    if (frames.empty()) return Status::corrupt(missing_text());
+    written_ = frames.size();
+    return write_sequence(make_source(frames), options_.output,
+                          {.format = options_.format,
+                           .overwrite = options_.overwrite,
+                           .threads = options_.threads,
+                           .progress = console_.bar("decoding")});
   }
-  source.frame = [&decoder, frames](uint32_t i, const Connectivity*& connectivity,
-                                    std::vector<float>& positions) {
-    const uint32_t frame = frames[i] - 1;
-    if (Status status = decoder.connectivity(frame, connectivity); !status.ok()) return status;
-    positions.resize(size_t{3} * connectivity->vertex_count);
-    return decoder.decode_frame(frame, positions.data());
-  };
-  return source;
-}
+
+  FrameSource make_source(const std::vector<uint32_t>& frames) const {
+    const StreamInfo& info = decoder_.info();
+    FrameSource source;
+    source.frame_rate = options_.frame_rate.value_or(info.frame_rate);
+    // What is not in order is a new sequence, with numbers and times from its own start.
+    const bool in_order = ascending(frames);
+    source.start_time = info.start_time + (in_order ? frames.front() - 1 : 0);
+    for (uint32_t i = 0; i < frames.size(); ++i) {
+      source.numbers.push_back(in_order ? frames[i] : i + 1);
+    }
+    for (const auto& [key, value] : info.metadata) {
+      if (key == kSampleRateKey) source.frames_per_sample = std::strtod(value.c_str(), nullptr);
+    }
+    source.least_bytes = position_bytes(frames);
+    source.frame = [this, frames](uint32_t i, const Connectivity*& connectivity,
+                                  std::vector<float>& positions) {
+      Status status = decoder_.connectivity(frames[i] - 1, connectivity);
+      if (status.ok()) {
+        positions.resize(size_t{3} * connectivity->vertex_count);
+        status = decoder_.decode_frame(frames[i] - 1, positions.data());
+      }
+      return status.ok() ? status : named(status);
+    };
+    return source;
+  }
+
+  uint64_t position_bytes(const std::vector<uint32_t>& frames) const {
+    uint64_t bytes = 0;
+    for (const auto& shot : decoder_.info().shots) {
+      const auto inside = [&](uint32_t frame) {
+        return frame > shot.first_frame && frame <= shot.first_frame + shot.frame_count;
+      };
+      bytes += 12 * uint64_t{shot.vertex_count} *
+               static_cast<uint64_t>(std::count_if(frames.begin(), frames.end(), inside));
+    }
+    return bytes;
+  }
+
+  const Options& options_;
+  Decoder& decoder_;
+  Console& console_;
+  std::vector<StreamInfo::Gap> missing_;
+  std::vector<uint32_t> wanted_;  ///< from 1
+  size_t written_ = 0;
+  bool searched_ = false;
+};
 
 int run(const Options& o) {
   Console console(o.console);
@@ -96,26 +141,7 @@ int run(const Options& o) {
   status = Decoder::open({reinterpret_cast<const uint8_t*>(text.data()), text.size()},
                          {.limits = {}, .threads = o.threads}, decoder);
   if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
-  if (decoder->info().truncated) {
-    console.say(o.input + ": truncated; " + counted(decoder->info().frame_count, "frame") +
-                " before the cut can be decoded");
-  }
-  std::vector<uint32_t> frames;
-  status = select_frames(o.range, o.reverse, decoder->info().frame_count, frames);
-  if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
-
-  OutputName name;
-  status = parse_output_name(o.output, static_cast<uint32_t>(frames.size()), name);
-  if (!status.ok()) {
-    console.error(status.message());
-    return kExitUsage;
-  }
-  status = write_sequence(
-      make_source(*decoder, frames), o.output,
-      {.overwrite = o.overwrite, .threads = o.threads, .progress = console.bar("decoding")});
-  if (!status.ok()) return fail(console, status);
-  console.say(o.output + ": " + counted(frames.size(), "frame"));
-  return kExitDone;
+  return StreamWriter(o, *decoder, console).run();
 }
 
 }  // namespace
@@ -132,21 +158,25 @@ void add_decode_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("-o,--output", o->output,
                    "By its name: out/f_%04d.obj (.ply, .off, .stl) a file per frame; out.pc2 or "
-                   "out.mdd a point cache, with out.obj; a folder; out.obj for one frame")
+                   "out.mdd a point cache, with out.obj; a folder; out.obj for one frame; - = "
+                   "standard output")
       ->required()
       ->type_name("NAME");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
   command
-      ->add_option_function<std::string>(
-          "--frames",
-          [o](const std::string& text) {
-            if (parse_range(text, o->range)) return;
-            throw CLI::ValidationError("--frames", "'" + text + "' is not a frame or range from 1");
-          },
-          "First and last frame, from 1: 10:20, 10:, :20, one frame 7, backwards 20:10; default "
-          "all")
-      ->type_name("A:B");
+      ->add_option("--format", o->format,
+                   "Of a folder's files or of standard output; default obj, for several frames to "
+                   "standard output pc2")
+      ->check(CLI::IsMember({"obj", "ply", "off", "stl", "pc2", "mdd"}).description(""))
+      ->type_name("obj|ply|off|stl|pc2|mdd");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  add_frames_option(*command, o->frames, "all");
   command->add_flag("--reverse", o->reverse, "Last frame first");
+  command
+      ->add_option("--fps", o->frame_rate,
+                   "Frames per second of an .mdd, > 0; default as in the .reeb file")
+      ->check(check_positive)
+      ->type_name("R");
+  add_keep_going_option(*command, o->keep_going);
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });

@@ -1,15 +1,20 @@
-#include <cstdio>
-#include <iostream>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "bitstream/headers.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/archive/stored_signature.h"
 #include "tools/command.h"
+#include "tools/damage.h"
+#include "tools/frame_selection.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
+#include "tools/io/standard_output.h"
+#include "tools/json.h"
 #include "tools/metrics.h"
 #include "tools/text.h"
 
@@ -36,6 +41,8 @@ struct Options {
   bool json = false;
   bool allow_gaps = false;
   bool signature = false;
+  bool keep_going = false;
+  FrameSelection frames;
   std::optional<double> frame_rate;
   std::optional<double> start_time;
   unsigned threads = 0;
@@ -73,9 +80,9 @@ Status allow_for_rounding(const ReadReport& read, EncodeOptions& out) {
     out.target_value -= read.largest_remainder;
     return {};
   }
-  return Status::invalid("a largest error of " + brief(out.target_value) +
+  return Status::invalid("a largest error of " + plain(out.target_value) +
                          " is out of reach: binary32 alone rounds the positions by up to " +
-                         brief(read.largest_remainder) +
+                         plain(read.largest_remainder) +
                          "; subtract an offset from all frames, or allow more");
 }
 
@@ -93,52 +100,97 @@ Status count_rounding(const Sequence& sequence, const ReadReport& read,
   return {};
 }
 
-Status write_stream(const Options& o, const std::vector<uint8_t>& bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (o.output == "-") {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    return written && std::fflush(stdout) == 0 ? Status()
-                                               : Status::io("standard output: cannot be written");
-  }
-  OutputSet files(o.overwrite);
-  Status status = files.prepare({o.output});
-  if (status.ok()) status = files.write(o.output, text);
-  return status.ok() ? files.commit() : status;
+/// About what the file will take at least; what is aimed at, where that is a size.
+uint64_t likely_bytes(const Options& o, const Sequence& sequence) {
+  const auto raw = static_cast<double>(raw_bytes(sequence));
+  double bytes = raw / 1000;
+  if (o.lossless) bytes = raw / 10;
+  if (o.bpvf > 0) bytes = o.bpvf / 8 * static_cast<double>(vertex_frames(sequence));
+  if (o.size > 0) bytes = o.size;
+  return static_cast<uint64_t>(std::min(bytes, raw));
 }
 
-void report(const Options& o, const Sequence& sequence, const ReadReport& read,
-            const EncodeStats& stats, Console& console) {
+/// Where the target has become impossible to write since `prepare`, the work is kept elsewhere.
+Status keep_elsewhere(const std::string& output, std::string_view bytes, const Status& failure) {
+  std::error_code failed;
+  const auto folder = std::filesystem::temp_directory_path(failed);
+  const auto name = std::filesystem::path(output).filename();
+  const auto target = folder / (std::to_string(::getpid()) + "-" + name.string());
+  OutputSet files(false);
+  Status status = failed ? failure : files.prepare({target});
+  if (status.ok()) status = files.write(target, bytes);
+  if (status.ok()) status = files.commit();
+  return status.ok() ? Status::io(failure.message() + "; the file is kept as " + target.string())
+                     : failure;
+}
+
+Status write_stream(const Options& o, const std::vector<uint8_t>& bytes, OutputSet& files) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  Status status = files.write(o.output, text);
+  if (status.ok()) status = files.commit();
+  if (status.ok() || is_standard_output(o.output)) return status;
+  return keep_elsewhere(o.output, text, status);
+}
+
+/// Gives the exit code.
+int report(const Options& o, const Sequence& sequence, const ReadReport& read,
+           const EncodeStats& stats, Console& console) {
   const double diagonal = bounding_diagonal(sequence);
   const double relative = diagonal > 0 ? 100 * stats.max_error / diagonal : 0;
   const double ratio = static_cast<double>(raw_bytes(sequence)) / static_cast<double>(stats.bytes);
-  console.say(o.output + ": " + byte_size(stats.bytes) + ", " + brief(stats.bpvf) +
-              " bits per vertex and frame, " + brief(ratio, 3) + " times smaller than float32");
+  console.say(o.output + ": " + byte_size(stats.bytes) + ", " + plain(stats.bpvf) +
+              " bits per vertex and frame, " + plain(ratio, 3) + " times smaller than float32");
   if (o.lossless) {
     console.say(read.largest_remainder == 0
                     ? "lossless: every position is kept to the bit"
                     : "lossless: every position is kept to the bit as binary32 holds it, that is "
                       "with an error of up to " +
-                          brief(stats.max_error));
+                          plain(stats.max_error));
   }
   if (!o.lossless)
-    console.say("error: KG " + brief(stats.kg) + " %, RMSE " + brief(stats.rmse) + ", maximum " +
-                brief(stats.max_error) + " (" + brief(relative) + " % of the diagonal)");
+    console.say("error: KG " + plain(stats.kg) + " %, RMSE " + plain(stats.rmse) + ", maximum " +
+                plain(stats.max_error) + " (" + plain(relative) + " % of the diagonal)");
   for (const EncodeStats::Section& s : stats.sections) {
     console.detail("  " + s.name + ": " + byte_size(static_cast<uint64_t>(s.bits / 8)));
   }
-  if (!o.json) return;
-  nlohmann::ordered_json json{{"file", o.output},
-                              {"bytes", stats.bytes},
-                              {"bpvf", stats.bpvf},
-                              {"kg", stats.kg},
-                              {"rmse", stats.rmse},
-                              {"max_error", stats.max_error},
-                              {"max_error_percent_of_diagonal", relative},
-                              {"ratio", ratio},
-                              {"sections", nlohmann::ordered_json::object()},
-                              {"notes", stats.notes}};
+  if (!o.json) return kExitDone;
+  Json json{{"file", o.output},
+            {"bytes", stats.bytes},
+            {"bpvf", stats.bpvf},
+            {"kg", stats.kg},
+            {"rmse", stats.rmse},
+            {"max_error", stats.max_error},
+            {"max_error_percent_of_diagonal", relative},
+            {"ratio", ratio},
+            {"sections", Json::object()},
+            {"notes", stats.notes}};
   for (const EncodeStats::Section& s : stats.sections) json["sections"][s.name] = s.bits / 8;
-  std::cout << json.dump(2) << "\n";
+  return print(dump(json));
+}
+
+std::string wrong_usage(const Options& o) {
+  if (o.json && is_standard_output(o.output)) {
+    return "--json and -o - both want standard output; name an output file";
+  }
+  if (o.encoder.open_groups > 0 && o.encoder.profile != Profile::kMain) {
+    return "--open-groups needs --profile main: groups of the others are always closed";
+  }
+  return check_extension(o.output, ".reeb");
+}
+
+/// What is asked for of what there is.
+Status choose_frames(const Options& o, ReadReport& read, Sequence& sequence) {
+  if (o.frame_rate) sequence.frame_rate = *o.frame_rate;
+  if (o.start_time) sequence.start_time = *o.start_time;
+  if (o.frames.empty()) return {};
+  if (!read.missing.empty())
+    return Status::invalid("--frames needs a sequence that is whole; decode and name its files");
+  std::vector<uint32_t> numbers;
+  const Status status = o.frames.numbers(sequence.frame_count(), numbers);
+  if (!status.ok()) return status;
+  read.remainders = pick_remainders(sequence, read.remainders, numbers);
+  sequence = pick_frames(sequence, numbers);
+  return {};
 }
 
 void keep_signature(Sequence& sequence, Console& console) {
@@ -152,29 +204,23 @@ void keep_signature(Sequence& sequence, Console& console) {
 
 int run(Options& o) {
   Console console(o.console);
-  if (o.json && o.output == "-") {
-    console.error("--json and -o - both want standard output; name an output file");
+  if (const std::string wrong = wrong_usage(o); !wrong.empty()) {
+    console.error(wrong);
     return kExitUsage;
   }
-  if (o.encoder.open_groups > 0 && o.encoder.profile != Profile::kMain) {
-    console.error("--open-groups needs --profile main: groups of the others are always closed");
-    return kExitUsage;
-  }
-  if (o.output != "-") {
-    if (Status status = check_target(o.output, o.overwrite); !status.ok()) {
-      return fail(console, status);
-    }
-  }
+  OutputSet files(o.overwrite);
+  Status status = refuse_terminal(o.output, o.overwrite);
+  if (status.ok()) status = files.prepare({o.output});
   Sequence sequence;
   ReadReport read;
-  Status status = read_sequence(
-      o.inputs,
-      {.threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")},
-      sequence, read);
+  const ReadOptions reading{
+      .threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")};
+  if (status.ok()) status = read_sequence(o.inputs, reading, sequence, read);
   if (!status.ok()) return fail(console, status);
   console.say_all(read.notes);
-  if (o.frame_rate) sequence.frame_rate = *o.frame_rate;
-  if (o.start_time) sequence.start_time = *o.start_time;
+  status = choose_frames(o, read, sequence);
+  if (status.ok()) status = check_room(o.output, likely_bytes(o, sequence));
+  if (!status.ok()) return fail(console, status);
   console.detail(counted(sequence.frame_count(), "frame") + " of " +
                  counted(sequence.shots[0].connectivity.vertex_count, "vertex") + " read");
 
@@ -196,11 +242,13 @@ int run(Options& o) {
   if (status.ok() && read.largest_remainder > 0 && order_kept) {
     status = count_rounding(sequence, read, bytes, stats);
   }
-  if (status.ok()) status = write_stream(o, bytes);
+  if (status.ok()) status = write_stream(o, bytes, files);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);
-  report(o, sequence, read, stats, console);
-  return kExitDone;
+  const uint32_t total = read.stream ? read.stream->total_frames : 0;
+  return std::max(report(o, sequence, read, stats, console),
+                  finish_damaged(console, describe_missing(o.inputs.back(), read.missing, total),
+                                 o.keep_going));
 }
 
 void add_target_options(CLI::App& command, Options& o) {
@@ -229,7 +277,7 @@ void add_target_options(CLI::App& command, Options& o) {
                               const std::string bad = parse_byte_count(text, o.size);
                               if (!bad.empty()) throw CLI::ValidationError("--size", bad);
                             },
-                            "Bytes of the file, not exceeded; suffixes k, M, KiB, MiB, GiB")
+                            "Bytes of the file, not exceeded; suffixes k, M, G, KiB, MiB, GiB")
                         ->type_name("BYTES"));
   targets.push_back(command.add_flag("--lossless", o.lossless,
                                      "Keep every bit of every position, and the order of faces"));
@@ -272,11 +320,11 @@ void add_coding_options(CLI::App& command, Options& o) {
   command
       .add_option_function<std::string>(
           "--profile", [&o](const std::string& name) { o.encoder.profile = profile_of(name); },
-          "main (smallest), fast (decodes quicker) or thesis (Hachani's chain, for comparison); "
+          "main is the smallest, fast decodes quicker, thesis is Hachani's chain, for comparison; "
           "default main")
       ->excludes("--lossless")
       ->check(CLI::IsMember({"main", "fast", "thesis"}).description(""))
-      ->type_name("NAME")
+      ->type_name("main|fast|thesis")
       ->group(group);
   command
       .add_option_function<std::string>(
@@ -313,6 +361,8 @@ void add_encode_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
   command->add_flag("--allow-gaps", o->allow_gaps, "Missing frame numbers are not an error");
+  add_frames_option(*command, o->frames, "all");
+  add_keep_going_option(*command, o->keep_going);
   command->add_flag("--json", o->json, "Report as JSON on standard output");
   add_target_options(*command, *o);
   add_coding_options(*command, *o);

@@ -1,11 +1,13 @@
-#include <iostream>
+#include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "tools/command.h"
+#include "tools/damage.h"
 #include "tools/io/file_bytes.h"
+#include "tools/json.h"
 #include "tools/text.h"
 
 namespace reeb::tools {
@@ -13,7 +15,8 @@ namespace info_command {
 namespace {
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
+  bool keep_going = false;
   bool json = false;
   bool trace = false;
   ConsoleOptions console;
@@ -25,8 +28,7 @@ double bits_per_vertex_and_frame(const StreamInfo& info) {
   return n > 0 ? 8 * static_cast<double>(info.file_bytes) / n : 0;
 }
 
-nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) {
-  using Json = nlohmann::ordered_json;
+Json to_json(const std::string& name, const StreamInfo& info) {
   Json json{{"file", name},
             {"format_version", info.format_version},
             {"bytes", info.file_bytes},
@@ -67,11 +69,11 @@ nlohmann::ordered_json to_json(const std::string& name, const StreamInfo& info) 
 
 void print_text(const std::string& name, const StreamInfo& info, std::ostream& out) {
   out << name << ": reeb format " << info.format_version << ", " << byte_size(info.file_bytes)
-      << ", " << brief(bits_per_vertex_and_frame(info)) << " bits per vertex and frame"
+      << ", " << plain(bits_per_vertex_and_frame(info)) << " bits per vertex and frame"
       << (info.truncated ? ", truncated" : "") << "\n";
   out << counted(info.frame_count, "frame");
-  if (info.frame_rate > 0) out << " at " << brief(info.frame_rate, 6) << " per second";
-  if (info.start_time != 0) out << ", from time " << brief(info.start_time, 6);
+  if (info.frame_rate > 0) out << " at " << plain(info.frame_rate, 6) << " per second";
+  if (info.start_time != 0) out << ", from time " << plain(info.start_time, 6);
   out << "\n";
   for (const auto& s : info.shots) {
     out << "from frame " << grouped(s.first_frame + 1) << ": " << counted(s.frame_count, "frame")
@@ -98,30 +100,42 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
   for (const auto& [key, value] : info.metadata) out << "  " << key << " = " << value << "\n";
 }
 
-int run(const Options& o) {
-  Console console(o.console);
+/// What a file holds goes to `text` or `json`; what it lacks is said. Gives the exit code.
+int show(const Options& o, const std::string& name, Console& console, std::ostream& text,
+         Json& json) {
   FileBytes file;
-  Status status = FileBytes::read(o.input, file);
+  Status status = FileBytes::read(name, file);
   if (!status.ok()) return fail(console, status);
-  const std::string_view text = file.view();
-  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
+  const std::string_view view = file.view();
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(view.data()), view.size());
   if (o.trace) {
-    std::cout << trace(bytes);
+    text << trace(bytes);
     return kExitDone;
   }
   std::unique_ptr<Decoder> decoder;
   status = Decoder::open(bytes, {}, decoder);
-  if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
+  if (!status.ok()) return fail(console, {status.code(), name + ": " + status.message()});
+  const StreamInfo& info = decoder->info();
   if (o.json) {
-    using Json = nlohmann::ordered_json;
-    // Metadata come from the file: bytes that are not UTF-8 are replaced.
-    std::cout
-        << to_json(o.input, decoder->info()).dump(2, ' ', false, Json::error_handler_t::replace)
-        << "\n";
+    json.push_back(to_json(name, info));
   } else {
-    print_text(o.input, decoder->info(), std::cout);
+    print_text(name, info, text);
   }
-  return kExitDone;
+  return finish_damaged(console, describe_missing(name, info.missing, info.total_frames),
+                        o.keep_going);
+}
+
+int run(const Options& o) {
+  Console console(o.console);
+  std::ostringstream text;
+  Json json = Json::array();
+  int exit_code = kExitDone;
+  for (const std::string& name : o.inputs) {
+    if (name != o.inputs.front() && !o.json) text << "\n";
+    exit_code = std::max(exit_code, show(o, name, console, text, json));
+  }
+  if (o.json && !json.empty()) text << dump(o.inputs.size() == 1 ? json.front() : json);
+  return std::max(exit_code, print(text.str()));
 }
 
 }  // namespace
@@ -129,14 +143,15 @@ int run(const Options& o) {
 
 void add_info_command(CLI::App& app, int& exit_code) {
   using namespace info_command;
-  auto* command = app.add_subcommand("info", "Show what a .reeb file holds");
+  auto* command = app.add_subcommand("info", "Show what .reeb files hold");
   auto o = std::make_shared<Options>();
-  command->add_option("INPUT", o->input, "The .reeb file; - = standard input")
+  command->add_option("FILE", o->inputs, "The .reeb files; - = standard input")
       ->required()
       ->type_name("");
   auto* json = command->add_flag("--json", o->json, "As JSON");
   command->add_flag("--trace", o->trace, "Every field of every header instead, damaged files too")
       ->excludes(json);
+  add_keep_going_option(*command, o->keep_going);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

@@ -15,7 +15,11 @@ void remove_output_on_interrupt() {
   std::signal(SIGXFSZ, SIG_IGN);
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler != SIG_IGN) sigaddset(&signals, signal);
+  }
   // Blocked here, hence in every thread to come; one thread waits for them and may take locks and
   // touch files, which a signal handler must not.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -23,8 +27,9 @@ void remove_output_on_interrupt() {
     int received = 0;
     sigwait(&signals, &received);
     OutputSet::abandon_all();
-    std::fputs("\nreeb: interrupted; nothing was written\n", stderr);
-    _exit(kExitInterrupted);
+    std::fprintf(stderr, "\nreeb: %s; nothing was written\n",
+                 received == SIGINT ? "interrupted" : "terminated");
+    _exit(128 + received);
   }).detach();
 }
 

@@ -3,11 +3,9 @@
 
 namespace reeb::tools {
 
-inline constexpr int kExitInterrupted = 130;
-
 /// From here on SIGINT, SIGTERM and SIGHUP remove all unfinished output (see OutputSet) and end the
-/// program with kExitInterrupted, at once, whatever its threads are doing. To be called first in
-/// main.
+/// program with 128 + their number, at once, whatever its threads are doing. One that is ignored
+/// (nohup, a job of a script in the background) stays ignored. To be called first in main.
 void remove_output_on_interrupt();
 
 }  // namespace reeb::tools

@@ -1,6 +1,10 @@
 // The `reeb` command.
+#include <csignal>
+#include <sstream>
+
 #include "tools/archive_command.h"
 #include "tools/command.h"
+#include "tools/command_line.h"
 #include "tools/interrupt.h"
 #include "tools/segment_command.h"
 #include "tools/version.h"
@@ -8,17 +12,20 @@
 int main(int argc, char** argv) {
   using namespace reeb::tools;
   remove_output_on_interrupt();
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, which is told
   CLI::App app("Codec for animated triangle meshes. reeb COMMAND --help explains a command.",
                "reeb");
   app.set_version_flag("--version", version_text());
-  app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 comparison over tolerance, 130 interrupted");
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 comparison over tolerance, 129 hung up, "
+      "130 interrupted, 143 terminated");
+  set_up_command_line(app);
 
   int exit_code = kExitDone;
   add_encode_command(app, exit_code);
   add_decode_command(app, exit_code);
   add_info_command(app, exit_code);
+  add_verify_command(app, exit_code);
   add_compare_command(app, exit_code);
   add_sample_command(app, exit_code);
   add_picture_command(app, exit_code);
@@ -26,11 +33,13 @@ int main(int argc, char** argv) {
   add_segment_command(app, exit_code);
   add_index_command(app, exit_code);
   add_search_command(app, exit_code);
+  add_help_command(app, exit_code);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitUsage;
+    std::ostringstream help;
+    return app.exit(error, help) == 0 ? print(help.str()) : kExitUsage;
   } catch (const std::bad_alloc&) {
     Console({}).error("out of memory; close other programs or encode a shorter sequence");
     return kExitFailed;

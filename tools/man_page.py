@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """man_page.py REEB VERSION: writes the manual page reeb(1) to standard output, made from what `reeb --help` and
 `reeb COMMAND --help` say, so that both always agree."""
+import os
 import re
 import subprocess
 import sys
 
 
 def read_help(reeb, *command):
-    text = subprocess.run([reeb, *command, "--help"], check=True, capture_output=True, text=True).stdout
+    """Lines of a help page, none of them broken."""
+    wide = dict(os.environ, COLUMNS="10000")
+    text = subprocess.run([reeb, *command, "--help"], check=True, capture_output=True, text=True, env=wide).stdout
     return text.splitlines()
 
 
@@ -33,10 +36,8 @@ def roff(text):
 
 
 def entry_name(name):
-    """`-o,--output FILE REQUIRED Excludes: ...` as it is typed, and a remark."""
-    name, _, rivals = name.partition(" Excludes: ")
-    required = name.endswith(" REQUIRED")
-    remark = " Required." if required else f" Not with {rivals.replace(' ', ', ')}." if rivals else ""
+    """`-o,--output FILE REQUIRED` as it is typed, and a remark."""
+    remark = " Required." if name.endswith(" REQUIRED") else ""
     return name.removesuffix(" REQUIRED").replace(",", ", "), remark
 
 

@@ -2,8 +2,11 @@
 #include <memory>
 
 #include "tools/command.h"
+#include "tools/damage.h"
+#include "tools/frame_selection.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
+#include "tools/io/standard_output.h"
 #include "tools/metrics.h"
 #include "tools/picture/contact_sheet.h"
 #include "tools/text.h"
@@ -15,10 +18,10 @@ namespace {
 constexpr uint32_t kDefaultColumns = 4;
 
 struct Options {
-  std::string original;
-  std::string other;
+  std::vector<std::string> inputs;
   std::string output;
-  std::vector<uint32_t> frames;
+  FrameSelection frames;
+  bool keep_going = false;
   int tile = 360;
   double azimuth = 35;
   double elevation = 12;
@@ -29,35 +32,46 @@ struct Options {
 };
 
 // Frames from 0: those asked for, or some spread over the sequence.
-Status select_frames(const std::vector<uint32_t>& asked, uint32_t count,
-                     std::vector<uint32_t>& out) {
-  for (const uint32_t frame : asked) {
-    if (frame < 1 || frame > count) {
-      return Status::invalid("frame " + grouped(frame) + " does not exist; there are frames 1 to " +
-                             grouped(count));
-    }
-    out.push_back(frame - 1);
+Status select_frames(const FrameSelection& asked, uint32_t count, std::vector<uint32_t>& out) {
+  if (!asked.empty()) {
+    const Status status = asked.numbers(count, out);
+    for (uint32_t& frame : out) --frame;
+    return status;
   }
-  if (asked.empty()) out = spread_frames(count, kDefaultColumns);
+  out = spread_frames(count, kDefaultColumns);
   return {};
 }
 
-Status load(const Options& o, const std::string& name, Console& console, Sequence& out) {
+Status load(const Options& o, const std::vector<std::string>& names, Console& console,
+            Sequence& out, std::string& damage) {
   ReadReport report;
-  const Status status = read_sequence({name}, {.threads = o.threads}, out, report);
-  if (status.ok()) console.say_all(report.notes);
-  return status;
+  const Status status =
+      read_sequence(names, {.threads = o.threads, .progress = console.bar("reading")}, out, report);
+  if (!status.ok()) return status;
+  console.say_all(report.notes);
+  if (report.stream)
+    damage = describe_missing(names.back(), report.missing, report.stream->total_frames);
+  return {};
 }
 
 int run(const Options& o) {
   Console console(o.console);
-  if (Status status = check_target(o.output, o.overwrite); !status.ok())
-    return fail(console, status);
+  const auto inputs = split_sequences(o.inputs, 1);
+  std::string wrong = check_extension(o.output, ".png");
+  if (inputs.size() > 2) wrong = "a picture shows two sequences at most";
+  if (!wrong.empty()) {
+    console.error(wrong);
+    return kExitUsage;
+  }
+  OutputSet files(o.overwrite);
+  Status status = refuse_terminal(o.output, o.overwrite);
+  if (status.ok()) status = files.prepare({o.output});
   Sequence original;
   Sequence other;
-  Status status = load(o, o.original, console, original);
-  if (status.ok() && !o.other.empty()) {
-    status = load(o, o.other, console, other);
+  std::string damage, other_damage;
+  if (status.ok()) status = load(o, inputs[0], console, original, damage);
+  if (status.ok() && inputs.size() == 2) {
+    status = load(o, inputs[1], console, other, other_damage);
     Comparison comparison;
     if (status.ok()) status = compare_sequences(original, other, comparison);
   }
@@ -69,14 +83,13 @@ int run(const Options& o) {
   sheet.tile_height = o.tile * 5 / 6;
   sheet.camera = Camera::orbit(o.azimuth, o.elevation, o.z_up);
   std::string png;
-  status = encode_png(contact_sheet(original, o.other.empty() ? nullptr : &other, sheet), png);
-  OutputSet files(o.overwrite);
-  if (status.ok()) status = files.prepare({o.output});
+  status = encode_png(contact_sheet(original, inputs.size() == 1 ? nullptr : &other, sheet), png);
   if (status.ok()) status = files.write(o.output, png);
   if (status.ok()) status = files.commit();
   if (!status.ok()) return fail(console, status);
   console.say(o.output + ": " + counted(sheet.frames.size(), "frame"));
-  return kExitDone;
+  return std::max(finish_damaged(console, damage, o.keep_going),
+                  finish_damaged(console, other_damage, o.keep_going));
 }
 
 }  // namespace
@@ -86,17 +99,18 @@ void add_picture_command(CLI::App& app, int& exit_code) {
   using namespace picture_command;
   auto* command = app.add_subcommand("picture", "Draw frames side by side into a PNG");
   auto o = std::make_shared<Options>();
-  const std::string sequence =
-      ": a folder, a quoted pattern, a point cache with its mesh beside it, "
-      "or a .reeb file";
-  command->add_option("A", o->original, "A sequence" + sequence)->required()->type_name("");
-  command->add_option("B", o->other, "A decoded one to show under it, with the error in colour")
+  command
+      ->add_option("SEQUENCE", o->inputs,
+                   "A folder, a quoted pattern, a .reeb file, or a point cache with its mesh "
+                   "beside it or named before it; and a decoded one to show under it, with the "
+                   "error in colour")
+      ->required()
+      ->expected(1, 4)
       ->type_name("");
   command->add_option("-o,--output", o->output, "The PNG file")->required()->type_name("FILE");
   command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
-  command->add_option("--frames", o->frames, "Frames to show, from 1, as in 1,20,40; default four")
-      ->delimiter(',')
-      ->type_name("LIST");
+  add_frames_option(*command, o->frames, "four");
+  add_keep_going_option(*command, o->keep_going);
   const std::string group = "View";
   command->add_option("--tile", o->tile, "Width of a frame in pixels, 16 to 4096; default 360")
       ->check(CLI::Range(16, 4096).description(""))

@@ -38,8 +38,12 @@ Status draw(const Options& o, const std::string& csv, std::string& svg) {
 
 int run(Options& o) {
   Console console(o.console);
-  if (Status status = check_target(o.output, o.overwrite); !status.ok())
-    return fail(console, status);
+  if (const std::string wrong = check_extension(o.output, ".svg"); !wrong.empty()) {
+    console.error(wrong);
+    return kExitUsage;
+  }
+  OutputSet files(o.overwrite);
+  if (Status status = files.prepare({o.output}); !status.ok()) return fail(console, status);
   FileBytes file;
   Status status = FileBytes::read(o.input, file);
   if (!status.ok()) return fail(console, status);
@@ -48,9 +52,7 @@ int run(Options& o) {
   std::string svg;
   status = draw(o, std::string(file.view()), svg);
   if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
-  OutputSet files(o.overwrite);
-  status = files.prepare({o.output});
-  if (status.ok()) status = files.write(o.output, svg);
+  status = files.write(o.output, svg);
   if (status.ok()) status = files.commit();
   return status.ok() ? kExitDone : fail(console, status);
 }

@@ -1,4 +1,3 @@
-#include <iostream>
 #include <memory>
 
 #include "tools/command.h"
@@ -23,7 +22,7 @@ int run(const Options& o) {
   Console console(o.console);
   Sequence sequence;
   OutputName name;
-  Status status = parse_output_name(o.output, o.frame_count, name);
+  Status status = parse_output_name(o.output, o.frame_count, "", name);
   if (status.ok()) status = make_sample(o.name, o.frame_count, sequence);
   if (!status.ok()) {
     console.error(status.message());
@@ -55,7 +54,7 @@ void add_sample_command(CLI::App& app, int& exit_code) {
           "A folder, or by its name: out/f_%04d.obj (.ply, .off, .stl), out.pc2 or out.mdd")
       ->required()
       ->type_name("NAME");
-  command->add_option("--frames", o->frame_count, "Number of frames, 1 to 100000; default 100")
+  command->add_option("--length", o->frame_count, "Number of frames, 1 to 100000; default 100")
       ->check(CLI::Range(1u, 100000u).description(""))
       ->type_name("N");
   command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");

@@ -8,6 +8,8 @@
 #include "segmentation/motion.h"
 #include "segmentation/skeleton.h"
 #include "tools/command.h"
+#include "tools/damage.h"
+#include "tools/frame_selection.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
 #include "tools/picture/contact_sheet.h"
@@ -25,7 +27,8 @@ struct Options {
   std::vector<std::string> inputs;
   std::string mesh, graph, picture;
   uint32_t regions = 0;
-  uint32_t columns = kDefaultColumns;
+  FrameSelection frames;
+  bool keep_going = false;
   int tile = 400;
   double azimuth = 35;
   double elevation = 12;
@@ -54,7 +57,7 @@ class Segmented {
     return grouped(extremities) + (extremities == 1 ? " extremity, " : " extremities, ") +
            counted(graph.arcs.size(), "arc") + ", " + counted(graph.loops(), "loop") + ", " +
            counted(region_count(), "region") + ", motion error " +
-           brief(segmentation::motion_error(input(), labels_)) + " %";
+           plain(segmentation::motion_error(input(), labels_)) + " %";
   }
 
   std::string mesh() const { return coloured_ply(shot_.connectivity, shot_.frame(0), labels_); }
@@ -68,8 +71,13 @@ class Segmented {
   }
 
   Status picture(const Options& o, std::string& png) const {
+    std::vector<uint32_t> shown = spread_frames(shot_.frame_count, kDefaultColumns);
+    if (!o.frames.empty()) {
+      if (Status status = o.frames.numbers(shot_.frame_count, shown); !status.ok()) return status;
+      for (uint32_t& frame : shown) --frame;
+    }
     std::vector<PictureFrame> frames;
-    for (const uint32_t t : spread_frames(shot_.frame_count, o.columns)) {
+    for (const uint32_t t : shown) {
       frames.push_back({t, shot_.frame(t), skeleton_.place(shot_.frame(t))});
     }
     const PictureSubject subject{&shot_.connectivity, labels_, &result_.graph};
@@ -99,10 +107,18 @@ class Segmented {
 };
 
 bool has_extension(const std::string& name, const char* extension) {
-  return std::filesystem::path(name).extension() == extension;
+  return check_extension(name, extension).empty();
 }
 
-Status write_all(const Options& o, const Segmented& segmented) {
+std::vector<std::filesystem::path> targets(const Options& o) {
+  std::vector<std::filesystem::path> out;
+  for (const std::string& name : {o.mesh, o.graph, o.picture}) {
+    if (!name.empty()) out.emplace_back(name);
+  }
+  return out;
+}
+
+Status write_all(const Options& o, const Segmented& segmented, OutputSet& output) {
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   if (!o.mesh.empty()) files.emplace_back(o.mesh, segmented.mesh());
   if (!o.graph.empty())
@@ -112,10 +128,7 @@ Status write_all(const Options& o, const Segmented& segmented) {
     if (Status status = segmented.picture(o, png); !status.ok()) return status;
     files.emplace_back(o.picture, std::move(png));
   }
-  OutputSet output(o.overwrite);
-  std::vector<std::filesystem::path> names;
-  for (const auto& [name, bytes] : files) names.push_back(name);
-  Status status = output.prepare(names);
+  Status status;
   for (const auto& [name, bytes] : files) {
     if (status.ok()) status = output.write(name, bytes);
   }
@@ -142,31 +155,28 @@ int run(const Options& o) {
     console.error(wrong);
     return kExitUsage;
   }
-  for (const std::string& name : {o.mesh, o.graph, o.picture}) {
-    if (name.empty()) continue;
-    if (Status status = check_target(name, o.overwrite); !status.ok()) return fail(console, status);
-  }
+  OutputSet output(o.overwrite);
+  Status status = output.prepare(targets(o));
   Sequence sequence;
   ReadReport report;
-  Status status = read_sequence(
-      o.inputs, {.threads = o.threads, .progress = console.bar("reading")}, sequence, report);
+  const ReadOptions reading{.threads = o.threads, .progress = console.bar("reading")};
+  if (status.ok()) status = read_sequence(o.inputs, reading, sequence, report);
   if (!status.ok()) return fail(console, status);
   console.say_all(report.notes);
   if (sequence.shots.size() > 1) console.say("only the frames of the first faces are segmented");
   const Segmented segmented(sequence.shots.front(), o);
   console.say_all(segmented.result().warnings);
-  status = write_all(o, segmented);
+  status = write_all(o, segmented, output);
   if (!status.ok()) return fail(console, status);
   console.say(segmented.summary());
-  return kExitDone;
+  const uint32_t total = report.stream ? report.stream->total_frames : 0;
+  return finish_damaged(console, describe_missing(o.inputs.back(), report.missing, total),
+                        o.keep_going);
 }
 
 void add_picture_options(CLI::App& command, Options& o) {
   const std::string group = "Picture";
-  command.add_option("--frames", o.columns, "Frames side by side, 1 to 20; default 4")
-      ->check(CLI::Range(1u, 20u).description(""))
-      ->type_name("N")
-      ->group(group);
+  add_frames_option(command, o.frames, "four")->group(group);
   command.add_option("--tile", o.tile, "Width of a frame in pixels, 16 to 4096; default 400")
       ->check(CLI::Range(16, 4096).description(""))
       ->type_name("N")
@@ -216,6 +226,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1u, 2000u).description(""))
       ->type_name("N");
   command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  add_keep_going_option(*command, o->keep_going);
   add_picture_options(*command, *o);
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);

@@ -3,15 +3,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tools/json.h"
 #include "tools/segment_picture.h"
 
 namespace reeb::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Little-endian bytes of a number of 4 bytes.
 void append(std::string& out, uint32_t value) {

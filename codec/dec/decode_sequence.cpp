@@ -25,6 +25,8 @@ class SequenceDecoder {
         attributes_(source_, account_, store_) {}
 
   Status run(Sequence& out);
+  /// Frames that `run` did not give.
+  std::vector<StreamInfo::Gap> missing() const;
 
  private:
   /// Consecutive groups: of one shot, or each continuing the one before.
@@ -63,6 +65,7 @@ class SequenceDecoder {
   /// Groups of the shot at hand that did decode: first frames and numbers of frames.
   std::vector<std::pair<uint32_t, uint32_t>> decoded_;
   Status damage_;  // the first group that did not decode
+  std::vector<bool> given_;  // groups, in all
 };
 
 // Into runs that decode on their own.
@@ -120,6 +123,7 @@ Status SequenceDecoder::collect(const Output& out, Shot& shot) {
     if (!result.ok() && result.code() != StatusCode::kCorrupt) return result;
     if (!result.ok() && damage_.ok()) damage_ = result;
     if (!result.ok()) continue;
+    given_[out.run.begin + i] = true;
     const size_t size = out.first[i + 1] - out.first[i];
     if (end != out.first[i]) std::copy_n(out.positions + out.first[i], size, out.positions + end);
     end += size;
@@ -250,6 +254,7 @@ Status SequenceDecoder::run(Sequence& out) {
   out.start_time = container_.header.start_time;
   for (const MetadataEntry& m : container_.metadata) out.metadata[m.key] = m.value;
   const auto& groups = container_.groups;
+  given_.assign(groups.size(), false);
   for (Run run; run.begin < groups.size(); run.begin = run.end) {
     const uint32_t shot = groups[run.begin].header.shot;
     while (run.end < groups.size() && groups[run.end].header.shot == shot) ++run.end;
@@ -269,12 +274,33 @@ Status SequenceDecoder::run(Sequence& out) {
   return check_complete();
 }
 
+std::vector<StreamInfo::Gap> SequenceDecoder::missing() const {
+  std::vector<StreamInfo::Gap> gaps;
+  uint32_t next = 0;
+  const auto close_gap = [&](uint32_t end) {
+    if (next < end) gaps.push_back({next, end - next});
+  };
+  for (size_t g = 0; g < given_.size(); ++g) {
+    if (!given_[g]) continue;
+    const GroupHeader& h = container_.groups[g].header;
+    close_gap(h.first_frame);
+    next = h.first_frame + h.frame_count;
+  }
+  close_gap(container_.header.total_frames);
+  return gaps;
+}
+
 }  // namespace
 
-Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options,
-                       Sequence& out) {
+Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options, Sequence& out,
+                       std::vector<StreamInfo::Gap>* missing) {
   out = {};
-  Status status = guarded([&] { return SequenceDecoder(bytes, options).run(out); });
+  Status status = guarded([&] {
+    SequenceDecoder decoder(bytes, options);
+    const Status result = decoder.run(out);
+    if (missing != nullptr) *missing = decoder.missing();
+    return result;
+  });
   const bool partly =
       status.code() == StatusCode::kTruncated || status.code() == StatusCode::kCorrupt;
   if (!status.ok() && !partly) out = {};

@@ -115,7 +115,9 @@ class Decoder {
 
 /// All frames at once, groups in parallel on `options.threads`, output included in
 /// `options.limits.max_memory`. kTruncated where the stream ends early and kCorrupt where groups
-/// are damaged; `out` has then all frames that could be decoded, one after another.
-Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options, Sequence& out);
+/// are damaged; `out` has then all frames that could be decoded, one after another, and `missing`,
+/// where it is wanted, says which could not.
+Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& options, Sequence& out,
+                       std::vector<StreamInfo::Gap>* missing = nullptr);
 
 }  // namespace reeb

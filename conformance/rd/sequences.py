@@ -62,6 +62,6 @@ def samples(reeb, names, folder):
         sample, _, frames = name.partition(":")
         stem = f"{sample}-{frames or 25}"
         cache = os.path.join(folder, stem + ".pc2")
-        process.run([reeb, "sample", sample, "--frames", frames or "25", "-o", cache, "-f", "-q"])
+        process.run([reeb, "sample", sample, "--length", frames or "25", "-o", cache, "-f", "-q"])
         made.append(Sequence(stem, (os.path.join(folder, stem + ".obj"), cache)))
     return made

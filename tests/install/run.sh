@@ -31,6 +31,9 @@ others=$(nm -D --defined-only "$library" | awk '{print $3}' | grep -v '^reeb_' |
 [[ -z $others ]] || { echo "visible beside reeb_*: $others"; exit 1; }
 expect "Compress" "$prefix/bin/reeb" --help
 [[ -n $(find "$prefix" -name reeb.1) ]]
+for file in bash-completion/completions/reeb zsh/site-functions/_reeb fish/vendor_completions.d/reeb.fish; do
+  [[ -s $prefix/share/$file ]]
+done
 remembered=$(grep -rlF -e "$source" -e "$work/first" "$prefix" --include='*.cmake' --include='*.pc' --include='*.h' || true)
 [[ -z $remembered ]] || { echo "names this machine's folders: $remembered"; exit 1; }
 

@@ -111,11 +111,11 @@ TEST_CASE("index and search find a shape in another pose") {
   std::filesystem::create_directories(folder / "shapes");
   for (const char* kind : {"human-1", "octopus-1", "glasses-1"}) {
     REQUIRE(
-        run_reeb({"sample", kind, "--frames", "1", "-o", (folder / "shapes/") + kind + "_%d.off"})
+        run_reeb({"sample", kind, "--length", "1", "-o", (folder / "shapes/") + kind + "_%d.off"})
             .exit_code == 0);
   }
   REQUIRE(
-      run_reeb({"sample", "octopus-1", "--frames", "2", "-o", folder / "query_%d.off"}).exit_code ==
+      run_reeb({"sample", "octopus-1", "--length", "2", "-o", folder / "query_%d.off"}).exit_code ==
       0);
   const std::string archive = folder / "shapes.reebi";
   const CommandResult first = run_reeb({"index", folder / "shapes", "-o", archive});

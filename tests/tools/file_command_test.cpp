@@ -66,7 +66,7 @@ TEST_CASE("frames keep the order in which they are named") {
 
 TEST_CASE("a file beyond the size limit is an error that leaves nothing") {
   const TempFolder folder;
-  REQUIRE(run_reeb({"sample", "sheet", "--frames", "3", "-o", folder / "s.pc2"}).exit_code ==
+  REQUIRE(run_reeb({"sample", "sheet", "--length", "3", "-o", folder / "s.pc2"}).exit_code ==
           kExitDone);
   REQUIRE(run_reeb({"encode", folder / "s.pc2", "-o", folder / "s.reeb"}).exit_code == kExitDone);
   std::filesystem::create_directory(folder / "out");

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,10 @@ struct CommandResult {
 };
 
 /// Starts `reeb ARGUMENTS` with standard input, output and error as given; gives the process id.
+/// `prepare` is called in the new process before.
 inline pid_t start_reeb(const std::vector<std::string>& arguments, const std::string& in,
-                        const std::string& out, const std::string& err) {
+                        const std::string& out, const std::string& err,
+                        const std::function<void()>& prepare = {}) {
   const pid_t child = ::fork();
   if (child != 0) return child;
   const auto connect = [](const std::string& path, int flags, int descriptor) {
@@ -30,6 +33,7 @@ inline pid_t start_reeb(const std::vector<std::string>& arguments, const std::st
   connect(in, O_RDONLY, STDIN_FILENO);
   connect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   connect(err, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+  if (prepare) prepare();
   std::vector<char*> argv{const_cast<char*>(REEB_COMMAND)};
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
@@ -44,10 +48,12 @@ inline int exit_code_of(pid_t child) {
 }
 
 inline CommandResult run_reeb(const std::vector<std::string>& arguments,
-                              const std::string& in = "/dev/null") {
+                              const std::string& in = "/dev/null",
+                              const std::function<void()>& prepare = {}) {
   const TempFolder folder;
   CommandResult result;
-  result.exit_code = exit_code_of(start_reeb(arguments, in, folder / "out", folder / "err"));
+  result.exit_code =
+      exit_code_of(start_reeb(arguments, in, folder / "out", folder / "err", prepare));
   result.out = read_text(folder / "out");
   result.err = read_text(folder / "err");
   return result;

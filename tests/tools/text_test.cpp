@@ -13,6 +13,15 @@ TEST_CASE("numbers for people") {
   CHECK(brief(0.123456) == "0.1235");
   CHECK(brief(1e-9, 2) == "1e-09");
   CHECK(brief(INFINITY) == "inf");
+  CHECK(plain(3012, 3) == "3,010");
+  CHECK(plain(1234567.8, 4) == "1,235,000");
+  CHECK(plain(12345.678, 7) == "12,345.68");
+  CHECK(plain(-0.000054321, 2) == "-0.000054");
+  CHECK(plain(0.5) == "0.5");
+  CHECK(plain(9.99996) == "10");
+  CHECK(plain(0) == "0");
+  CHECK(plain(1e-9, 2) == "1e-09");
+  CHECK(plain(INFINITY) == "inf");
   CHECK(counted(1, "frame") == "1 frame");
   CHECK(counted(0, "frame") == "0 frames");
   CHECK(counted(4210, "vertex") == "4,210 vertices");

@@ -10,8 +10,12 @@
 #include <cstdio>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
+
+#include "tools/io/standard_output.h"
+#include "tools/text.h"
 
 namespace reeb::tools {
 namespace {
@@ -35,6 +39,7 @@ Status write_failure(const fs::path& target) {
 }
 
 bool is_special(const fs::path& path) {
+  if (is_standard_output(path.string())) return true;
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   return fs::exists(status) && !fs::is_regular_file(status);
@@ -90,6 +95,7 @@ bool move_to_free_name(const fs::path& from, const fs::path& to) {
 
 // Behind symbolic links, so that the link stays and its file changes.
 fs::path resolved(const fs::path& path) {
+  if (is_standard_output(path.string())) return path;
   std::error_code failed;
   const fs::path real = fs::is_symlink(path, failed) ? fs::canonical(path, failed) : path;
   return failed ? path : real;
@@ -100,6 +106,7 @@ fs::path resolved(const fs::path& path) {
 Status check_target(const fs::path& target, bool overwrite) {
   std::error_code ignored;
   const fs::file_status status = fs::status(target, ignored);
+  if (is_special(target) && !fs::is_directory(status)) return {};
   if (fs::is_directory(status)) {
     return Status::io(target.string() + ": is a folder; name a file in it");
   }
@@ -107,6 +114,19 @@ Status check_target(const fs::path& target, bool overwrite) {
     return Status::io(target.string() + ": exists already; pass -f to overwrite it");
   }
   return {};
+}
+
+Status check_room(const fs::path& target, uint64_t bytes) {
+  if (is_special(target)) return {};
+  std::error_code failed;
+  fs::path folder = fs::absolute(target, failed).parent_path();
+  while (!failed && !folder.empty() && !fs::exists(folder, failed) && folder.has_relative_path()) {
+    folder = folder.parent_path();
+  }
+  const fs::space_info space = fs::space(folder, failed);
+  if (failed || space.available >= bytes) return {};
+  return Status::io(target.string() + ": needs " + byte_size(bytes) + " or more, and only " +
+                    byte_size(space.available) + " are free; make room or name another folder");
 }
 
 OutputSet::~OutputSet() {
@@ -134,6 +154,21 @@ Status OutputSet::prepare(const std::vector<fs::path>& targets) {
   // Sorted, so that `find` stays quick with thousands of frames.
   std::sort(files_.begin(), files_.end(),
             [](const File& a, const File& b) { return a.target < b.target; });
+  return begin_files();
+}
+
+// One in each folder.
+Status OutputSet::begin_files() {
+  std::optional<fs::path> begun;
+  for (File& file : files_) {
+    const fs::path here = file.target.parent_path();
+    if (file.started || file.written == file.real || begun == here) continue;
+    int descriptor = -1;
+    const Status status = open(file, descriptor);
+    if (descriptor >= 0) ::close(descriptor);
+    if (!status.ok()) return status;
+    begun = here;
+  }
   return {};
 }
 
@@ -190,6 +225,7 @@ Status OutputSet::open(File& file, int& descriptor) const {
 }
 
 Status OutputSet::write(const fs::path& target, std::string_view bytes) {
+  if (is_standard_output(target.string())) return write_standard_output(bytes);
   int descriptor = -1;
   Status status;
   {

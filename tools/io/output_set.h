@@ -18,8 +18,8 @@ namespace reeb::tools {
 /// one thread except for `write`, which any number of threads may call.
 ///
 /// Temporary names cannot be foreseen, and no links that someone puts in their place are followed.
-/// A target that exists and is no regular file (/dev/null, a pipe) is written directly; one that is
-/// a link stays one.
+/// A target that exists and is no regular file (/dev/null, a pipe) is written directly, and so is
+/// standard output ("-", "/dev/stdout"); one that is a link stays one.
 class OutputSet {
  public:
   explicit OutputSet(bool overwrite) : overwrite_(overwrite) {}
@@ -27,8 +27,9 @@ class OutputSet {
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
-  /// Announces targets: fails where one exists and may not be overwritten, and creates their
-  /// folders.
+  /// Announces targets, before the work that makes them: fails where one exists and may not be
+  /// overwritten, creates their folders, and begins the first file of each to see whether it can
+  /// be written.
   Status prepare(const std::vector<std::filesystem::path>& targets);
 
   /// Writes, or continues, the file that will be `target`, a path given to `prepare` before.
@@ -51,6 +52,7 @@ class OutputSet {
     ino_t inode = 0;
   };
   Status create_folder(const std::filesystem::path& folder);
+  Status begin_files();
   File* find(const std::filesystem::path& target);
   Status open(File& file, int& descriptor) const;
   Status place(File& file) const;
@@ -66,5 +68,8 @@ class OutputSet {
 
 /// Why `target` must not be written; ok where it may.
 Status check_target(const std::filesystem::path& target, bool overwrite);
+
+/// Fails where the file system that `target` will be on has fewer than `bytes` bytes left.
+Status check_room(const std::filesystem::path& target, uint64_t bytes);
 
 }  // namespace reeb::tools

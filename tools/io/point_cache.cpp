@@ -41,8 +41,8 @@ void swap_if_foreign(std::span<float> values, CacheFormat format) {
 class CacheReader {
  public:
   CacheReader(const std::string& name, CacheFormat format, std::FILE* file, uint64_t size,
-              PointCache& out)
-      : name_(name), format_(format), file_(file), size_(size), out_(out) {}
+              const std::function<void(double)>& progress, PointCache& out)
+      : name_(name), format_(format), file_(file), size_(size), progress_(progress), out_(out) {}
 
   Status run() {
     Status status = format_ == CacheFormat::kPc2 ? read_pc2_header() : read_mdd_header();
@@ -160,11 +160,16 @@ class CacheReader {
   }
 
   Status read_floats(std::vector<float>& values, uint64_t count) {
+    constexpr uint64_t kStep = uint64_t{1} << 22;  // floats from one report to the next
     values.resize(count);
-    if (std::fread(values.data(), sizeof(float), count, file_) != count) {
-      return std::ferror(file_) ? read_failure(name_) : error("became shorter while it was read");
+    for (uint64_t done = 0; done < count;) {
+      const std::span<float> part(values.data() + done, std::min(kStep, count - done));
+      if (std::fread(part.data(), sizeof(float), part.size(), file_) != part.size())
+        return std::ferror(file_) ? read_failure(name_) : error("became shorter while it was read");
+      swap_if_foreign(part, format_);
+      done += part.size();
+      if (progress_) progress_(static_cast<double>(done) / static_cast<double>(count));
     }
-    swap_if_foreign(values, format_);
     return {};
   }
 
@@ -182,6 +187,7 @@ class CacheReader {
   CacheFormat format_;
   std::FILE* file_;
   uint64_t size_;
+  const std::function<void(double)>& progress_;
   PointCache& out_;
 };
 
@@ -205,7 +211,8 @@ std::optional<CacheFormat> cache_format(const fs::path& path) {
   return std::nullopt;
 }
 
-Status read_point_cache(const fs::path& path, PointCache& out) {
+Status read_point_cache(const fs::path& path, PointCache& out,
+                        const std::function<void(double)>& progress) {
   const std::optional<CacheFormat> format = cache_format(path);
   if (!format) return Status::invalid(path.string() + ": not a point cache (.pc2 or .mdd)");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
@@ -213,13 +220,13 @@ Status read_point_cache(const fs::path& path, PointCache& out) {
   std::error_code failed;
   const uintmax_t size = fs::file_size(path, failed);
   if (!file || failed) return read_failure(path.string());
-  return read_point_cache(file.get(), size, path.string(), *format, out);
+  return read_point_cache(file.get(), size, path.string(), *format, out, progress);
 }
 
 Status read_point_cache(std::FILE* file, uint64_t size, const std::string& name, CacheFormat format,
-                        PointCache& out) {
+                        PointCache& out, const std::function<void(double)>& progress) {
   out = PointCache();
-  return CacheReader(name, format, file, size, out).run();
+  return CacheReader(name, format, file, size, progress, out).run();
 }
 
 std::string cache_header(CacheFormat format, uint32_t point_count, uint32_t frame_count,
@@ -234,10 +241,10 @@ std::string cache_header(CacheFormat format, uint32_t point_count, uint32_t fram
     append_word(out, frame_count, format);
     return out;
   }
-  const double rate = frame_rate > 0 ? frame_rate : kDefaultFrameRate;
   append_word(out, frame_count, format);
   append_word(out, point_count, format);
-  for (uint32_t t = 0; t < frame_count; ++t) append_float(out, (start_time + t) / rate, format);
+  for (uint32_t t = 0; t < frame_count; ++t)
+    append_float(out, (start_time + t) / frame_rate, format);
   return out;
 }
 

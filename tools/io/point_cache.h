@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +26,6 @@ std::optional<CacheFormat> cache_format(const std::filesystem::path& path);
 /// Metadata key that keeps the "frames per sample" of a PC2 where it is not 1.
 inline constexpr const char* kSampleRateKey = "pc2.frames_per_sample";
 
-/// Frames per second that MDD times are written with where the sequence does not know its rate.
-inline constexpr double kDefaultFrameRate = 24;
-
 struct PointCache {
   uint32_t point_count = 0;
   uint32_t frame_count = 0;
@@ -39,14 +37,16 @@ struct PointCache {
 };
 
 /// Nothing is allocated before the size of the file has confirmed the counts. The message of a
-/// failure names the file, the frame and the remedy.
-Status read_point_cache(const std::filesystem::path& path, PointCache& out);
+/// failure names the file, the frame and the remedy. `progress`, which may be empty, is called with
+/// the done part in [0,1].
+Status read_point_cache(const std::filesystem::path& path, PointCache& out,
+                        const std::function<void(double)>& progress = {});
 
 /// The same from an open file of `size` bytes, `name` for messages.
 Status read_point_cache(std::FILE* file, uint64_t size, const std::string& name, CacheFormat format,
-                        PointCache& out);
+                        PointCache& out, const std::function<void(double)>& progress = {});
 
-/// What precedes the positions.
+/// What precedes the positions. An MDD needs a `frame_rate` above 0.
 std::string cache_header(CacheFormat format, uint32_t point_count, uint32_t frame_count,
                          double frame_rate, double start_time, double frames_per_sample);
 

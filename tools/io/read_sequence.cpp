@@ -203,12 +203,14 @@ class FrameReader {
   size_t first_of_shot_ = 0;
 };
 
-Status read_cached(const InputFiles& input, Sequence& out, ReadReport& report) {
+Status read_cached(const InputFiles& input, const ReadOptions& options, Sequence& out,
+                   ReadReport& report) {
   Slot slot;
   read_frame(input.meshes[0], nullptr, slot);
   if (!slot.status.ok()) return slot.status;
   PointCache cache;
-  if (Status status = read_point_cache(input.cache, cache); !status.ok()) return status;
+  if (Status status = read_point_cache(input.cache, cache, options.progress); !status.ok())
+    return status;
   if (cache.point_count != slot.mesh.connectivity.vertex_count) {
     return Status::corrupt(input.cache.string() + ": " + counted(cache.point_count, "point") +
                            ", " + input.meshes[0].string() + " has " +
@@ -240,15 +242,14 @@ Status read_stream(const fs::path& path, const ReadOptions& options, Sequence& o
   Status status = Decoder::open(bytes, decode_options, decoder);
   if (status.ok()) {
     report.stream = decoder->info();
-    status = decode_sequence(bytes, decode_options, out);
-    if (status.code() == StatusCode::kTruncated && !out.shots.empty()) status = {};
+    status = decode_sequence(bytes, decode_options, out, &report.missing);
+    const bool partly =
+        status.code() == StatusCode::kTruncated || status.code() == StatusCode::kCorrupt;
+    if (partly && !out.shots.empty()) status = {};
+    if (partly && out.shots.empty())
+      status = {status.code(), "no frame can be decoded: " + status.message()};
   }
   if (!status.ok()) return {status.code(), path.string() + ": " + status.message()};
-  if (report.stream->truncated) {
-    report.notes.push_back(path.string() + ": truncated; " +
-                           counted(report.stream->frame_count, "frame") +
-                           " before the cut are read");
-  }
   return {};
 }
 
@@ -261,7 +262,7 @@ Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& 
   if (Status status = find_input(inputs, options.allow_gaps, input); !status.ok()) return status;
   report.notes = std::move(input.notes);
   if (!input.stream.empty()) return read_stream(input.stream, options, out, report);
-  if (!input.cache.empty()) return read_cached(input, out, report);
+  if (!input.cache.empty()) return read_cached(input, options, out, report);
   return FrameReader(input.meshes, options, out, report).run();
 }
 

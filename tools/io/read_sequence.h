@@ -25,6 +25,8 @@ struct ReadReport {
   std::optional<StreamInfo> stream;  ///< filled where the input is a `.reeb` stream
   Remainders remainders;             ///< where binary32 does not hold what the files say
   double largest_remainder = 0;
+  /// Frames that a damaged or truncated stream did not give; those after them close up.
+  std::vector<StreamInfo::Gap> missing;
 };
 
 /// Reads what `inputs` name (see `find_input`). A new shot starts where the connectivity or the

@@ -8,6 +8,7 @@
 #include "tools/io/mesh_file.h"
 #include "tools/io/output_set.h"
 #include "tools/io/point_cache.h"
+#include "tools/io/standard_output.h"
 #include "tools/parallel.h"
 #include "tools/text.h"
 
@@ -25,8 +26,7 @@ struct PendingFrame {
 
 /// One mesh file per frame: formatted on several threads, a batch at a time.
 Status write_frames(const FrameSource& source, const std::vector<fs::path>& targets,
-                    const WriteOptions& options, OutputSet& files) {
-  const MeshFormat format = *mesh_format(targets[0]);
+                    MeshFormat format, const WriteOptions& options, OutputSet& files) {
   const size_t batch = size_t{4} * thread_count(options.threads);
   for (size_t first = 0; first < targets.size(); first += batch) {
     std::vector<PendingFrame> pending(std::min(batch, targets.size() - first));
@@ -62,9 +62,9 @@ Status check_same_mesh(const Connectivity& first, const Connectivity& now, uint3
                          "; write one file per frame (e.g. frame_%04d.obj) or pick --frames");
 }
 
-Status write_cache(const FrameSource& source, const fs::path& cache, const fs::path& mesh,
-                   const WriteOptions& options, OutputSet& files) {
-  const CacheFormat format = *cache_format(cache);
+/// `mesh`: where the faces go; empty for nowhere.
+Status write_cache(const FrameSource& source, const fs::path& cache, CacheFormat format,
+                   const fs::path& mesh, const WriteOptions& options, OutputSet& files) {
   const auto count = static_cast<uint32_t>(source.numbers.size());
   const Connectivity* first = nullptr;
   const Connectivity* now = nullptr;
@@ -74,7 +74,8 @@ Status write_cache(const FrameSource& source, const fs::path& cache, const fs::p
     if (!status.ok()) return status;
     if (i == 0) {
       first = now;
-      status = files.write(mesh, write_mesh(*first, positions, MeshFormat::kObj));
+      if (!mesh.empty())
+        status = files.write(mesh, write_mesh(*first, positions, MeshFormat::kObj));
       if (!status.ok()) return status;
       status =
           files.write(cache, cache_header(format, first->vertex_count, count, source.frame_rate,
@@ -95,11 +96,25 @@ Status unknown_format(const std::string& output) {
                          ".pc2 or .mdd");
 }
 
+Status one_frame(const std::string& output, uint32_t frame_count) {
+  const fs::path path(output);
+  const fs::path stem = path.parent_path() / path.stem();
+  std::string remedy = "pick one by --frames or take --format pc2";
+  if (path.has_extension()) {
+    remedy = "name " + stem.string() + "_%04d" + path.extension().string() + " or " +
+             stem.string() + ".pc2";
+  }
+  return Status::invalid(output + " holds one frame, there are " + grouped(frame_count) + "; " +
+                         remedy);
+}
+
 }  // namespace
 
 FrameSource source_of(const Sequence& sequence) {
   FrameSource source;
   source.frame_rate = sequence.frame_rate;
+  for (const Shot& shot : sequence.shots)
+    source.least_bytes += 12 * uint64_t{shot.frame_count} * shot.connectivity.vertex_count;
   source.start_time = sequence.start_time;
   const auto rate = sequence.metadata.find(kSampleRateKey);
   if (rate != sequence.metadata.end()) {
@@ -122,34 +137,43 @@ FrameSource source_of(const Sequence& sequence) {
   return source;
 }
 
-Status parse_output_name(const std::string& output, uint32_t frame_count, OutputName& out) {
+Status parse_output_name(const std::string& output, uint32_t frame_count, const std::string& format,
+                         OutputName& out) {
+  using Kind = OutputName::Kind;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(output, ignored);
+  const std::string wanted = format.empty() ? "" : "." + format;
+  if (is_standard_output(output) || (fs::exists(status) && fs::is_other(status))) {
+    const std::string extension = !wanted.empty() ? wanted : frame_count == 1 ? ".obj" : ".pc2";
+    const bool cache = cache_format("x" + extension).has_value();
+    out = {cache ? Kind::kCache : Kind::kSingleMesh, output, extension};
+    return cache || frame_count == 1 ? Status() : one_frame(output, frame_count);
+  }
   NumberPattern numbers;
-  if (fs::is_directory(output) || output.ends_with('/')) {
-    out = {OutputName::Kind::kFrames, (fs::path(output) / "frame_%04d.obj").string()};
+  const bool numbered = NumberPattern::parse(output, numbers);
+  const std::string extension = fs::path(output).extension().string();
+  if (fs::is_directory(status) || output.ends_with('/') || (extension.empty() && !numbered)) {
+    const std::string inside = wanted.empty() ? ".obj" : wanted;
+    if (!mesh_format("x" + inside)) {
+      return Status::invalid(output + ": a folder holds a mesh per frame; name a file, as in " +
+                             (fs::path(output) / ("out" + inside)).string());
+    }
+    out = {Kind::kFrames, (fs::path(output) / ("frame_%04d" + inside)).string(), inside};
     return {};
   }
+  if (!wanted.empty() && mesh_format(output) != mesh_format("x" + wanted)) {
+    return Status::invalid(output + ": its ending says another format than --format " + format);
+  }
+  out = {Kind::kFrames, output, extension};
   if (cache_format(output)) {
-    out = {OutputName::Kind::kCache, output};
-    return {};
-  }
-  if (fs::path(output).extension().empty() && !NumberPattern::parse(output, numbers)) {
-    out = {OutputName::Kind::kFrames, (fs::path(output) / "frame_%04d.obj").string()};
+    out.kind = Kind::kCache;
+    out.faces_beside = true;
     return {};
   }
   if (!mesh_format(output)) return unknown_format(output);
-  if (NumberPattern::parse(output, numbers)) {
-    out = {OutputName::Kind::kFrames, output};
-    return {};
-  }
-  if (frame_count == 1) {
-    out = {OutputName::Kind::kSingleMesh, output};
-    return {};
-  }
-  const fs::path path(output);
-  const fs::path stem = path.parent_path() / path.stem();
-  return Status::invalid(output + " holds one frame, there are " + grouped(frame_count) +
-                         "; name " + stem.string() + "_%04d" + path.extension().string() + " or " +
-                         stem.string() + ".pc2");
+  if (numbered) return {};
+  out.kind = Kind::kSingleMesh;
+  return frame_count == 1 ? Status() : one_frame(output, frame_count);
 }
 
 Status write_sequence(const FrameSource& source, const std::string& output,
@@ -157,24 +181,34 @@ Status write_sequence(const FrameSource& source, const std::string& output,
   OutputName name;
   const auto count = static_cast<uint32_t>(source.numbers.size());
   if (count == 0) return Status::invalid("there are no frames to write");
-  if (Status status = parse_output_name(output, count, name); !status.ok()) return status;
+  if (Status status = parse_output_name(output, count, options.format, name); !status.ok())
+    return status;
+  const auto cache = cache_format("x" + name.extension);
+  if (cache == CacheFormat::kMdd && !(source.frame_rate > 0)) {
+    return Status::invalid(output +
+                           ": an MDD holds times and the frame rate is not known; give it "
+                           "by --fps, or write a .pc2");
+  }
 
   std::vector<fs::path> targets;
-  if (name.kind == OutputName::Kind::kFrames) {
-    NumberPattern numbers;
-    if (!NumberPattern::parse(name.pattern, numbers)) return unknown_format(output);
+  NumberPattern numbers;
+  if (name.kind == OutputName::Kind::kFrames && NumberPattern::parse(name.pattern, numbers)) {
     for (const uint32_t number : source.numbers) targets.emplace_back(numbers.name(number));
   } else {
     targets.emplace_back(name.pattern);
   }
-  const bool is_cache = name.kind == OutputName::Kind::kCache;
-  if (is_cache) targets.push_back(fs::path(name.pattern).replace_extension(".obj"));
+  if (name.faces_beside) targets.push_back(fs::path(name.pattern).replace_extension(".obj"));
 
   OutputSet files(options.overwrite);
-  Status status = files.prepare(targets);
+  Status status = check_room(targets[0], source.least_bytes);
+  if (status.ok()) status = files.prepare(targets);
   if (!status.ok()) return status;
-  status = is_cache ? write_cache(source, targets[0], targets[1], options, files)
-                    : write_frames(source, targets, options, files);
+  if (cache) {
+    const fs::path mesh = name.faces_beside ? targets[1] : fs::path();
+    status = write_cache(source, targets[0], *cache, mesh, options, files);
+  } else {
+    status = write_frames(source, targets, *mesh_format("x" + name.extension), options, files);
+  }
   return status.ok() ? files.commit() : status;
 }
 

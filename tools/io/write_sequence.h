@@ -16,6 +16,7 @@ struct FrameSource {
   double frame_rate = 0;          ///< frames per second; 0 where unknown
   double start_time = 0;          ///< of the first frame written, in frames
   double frames_per_sample = 1;   ///< see PointCache
+  uint64_t least_bytes = 0;       ///< that the output will take, likely
   /// Gives the faces and positions ([vertex][xyz]) of output frame i; the pointer stays valid until
   /// all is written.
   std::function<Status(uint32_t i, const Connectivity*& connectivity,
@@ -27,6 +28,7 @@ struct FrameSource {
 FrameSource source_of(const Sequence& sequence);
 
 struct WriteOptions {
+  std::string format = {};  ///< see `parse_output_name`
   bool overwrite = false;
   unsigned threads = 0;  ///< 0 = all cores
   /// Called with the done part in [0,1]. May be empty.
@@ -37,12 +39,17 @@ struct WriteOptions {
 struct OutputName {
   enum class Kind { kFrames, kSingleMesh, kCache };
   Kind kind = Kind::kFrames;
-  std::string pattern;  ///< kFrames: with a %d field; kSingleMesh, kCache: the file
+  std::string pattern;        ///< kFrames: with a %d field; kSingleMesh, kCache: the file
+  std::string extension;      ///< of the format, ".obj"
+  bool faces_beside = false;  ///< kCache: with an .obj of the same name
 };
 
 /// Names: `out/f_%04d.obj` (also .ply, .off, .stl), a folder (frame_%04d.obj in it), `out.pc2` or
-/// `out.mdd` (their faces go to `out.obj`), `out.obj` for one frame.
-Status parse_output_name(const std::string& output, uint32_t frame_count, OutputName& out);
+/// `out.mdd` (their faces go to `out.obj`), `out.obj` for one frame; "-", or anything else that is
+/// neither file nor folder, for the bytes of a cache or of one mesh. `format` ("obj", "pc2") says
+/// what names without an extension hold; empty: .obj, a .pc2 where several frames need one file.
+Status parse_output_name(const std::string& output, uint32_t frame_count, const std::string& format,
+                         OutputName& out);
 
 /// Writes all frames, or nothing at all. Missing folders are created.
 Status write_sequence(const FrameSource& source, const std::string& output,

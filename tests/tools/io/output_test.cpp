@@ -187,19 +187,19 @@ TEST_CASE("output names") {
   const TempFolder folder;
   OutputName name;
   using Kind = OutputName::Kind;
-  REQUIRE(parse_output_name("o/f_%03d.ply", 5, name).ok());
+  REQUIRE(parse_output_name("o/f_%03d.ply", 5, "", name).ok());
   CHECK(name.kind == Kind::kFrames);
-  REQUIRE(parse_output_name("o/x.pc2", 5, name).ok());
+  REQUIRE(parse_output_name("o/x.pc2", 5, "", name).ok());
   CHECK(name.kind == Kind::kCache);
-  REQUIRE(parse_output_name("x.obj", 1, name).ok());
+  REQUIRE(parse_output_name("x.obj", 1, "", name).ok());
   CHECK(name.kind == Kind::kSingleMesh);
-  REQUIRE(parse_output_name(folder.path().string(), 5, name).ok());
+  REQUIRE(parse_output_name(folder.path().string(), 5, "", name).ok());
   CHECK(name.pattern == folder / "frame_%04d.obj");
-  REQUIRE(parse_output_name("new_folder", 5, name).ok());
+  REQUIRE(parse_output_name("new_folder", 5, "", name).ok());
   CHECK(name.pattern == "new_folder/frame_%04d.obj");
-  CHECK_THAT(parse_output_name("x.obj", 5, name).message(), Catch::Contains("x_%04d.obj"));
-  CHECK_FALSE(parse_output_name("x.txt", 1, name).ok());
-  CHECK_FALSE(parse_output_name("x_%04d.txt", 1, name).ok());
+  CHECK_THAT(parse_output_name("x.obj", 5, "", name).message(), Catch::Contains("x_%04d.obj"));
+  CHECK_FALSE(parse_output_name("x.txt", 1, "", name).ok());
+  CHECK_FALSE(parse_output_name("x_%04d.txt", 1, "", name).ok());
 }
 
 TEST_CASE("sequences survive every output to the bit") {
