@@ -42,9 +42,9 @@ class SequenceDecoder {
   };
 
   Status add_shot(const ReferenceChunk& reference, const Run& run, Shot& shot);
-  Status add_attributes(const ReferenceChunk& reference, Shot& shot);
-  Status add_frames(const std::shared_ptr<const KeptAttribute>& kept, const Shot& shot,
-                    Attribute& attribute);
+  Status add_attributes(const ReferenceChunk& reference, const Run& run, Shot& shot);
+  Status add_frames(const std::shared_ptr<const KeptAttribute>& kept, const Run& run,
+                    const Shot& shot, Attribute& attribute);
   Status add_resources(Sequence& out);
   Status decode_groups(const ReferenceChunk& reference, const Run& run, Shot& shot);
   std::vector<Run> split(const Run& run) const;
@@ -62,10 +62,8 @@ class SequenceDecoder {
   ContainerReader container_;
   GroupStore store_;
   AttributeStore attributes_;
-  /// Groups of the shot at hand that did decode: first frames and numbers of frames.
-  std::vector<std::pair<uint32_t, uint32_t>> decoded_;
-  Status damage_;  // the first group that did not decode
-  std::vector<bool> given_;  // groups, in all
+  Status damage_;              // the first group that did not decode
+  std::vector<bool> decoded_;  // groups
 };
 
 // Into runs that decode on their own.
@@ -117,19 +115,16 @@ unsigned SequenceDecoder::workers(uint64_t vertices, const Run& run, size_t part
 // Closes the gaps that groups leave which do not decode.
 Status SequenceDecoder::collect(const Output& out, Shot& shot) {
   size_t end = 0;
-  decoded_.clear();
   for (size_t i = 0; i < out.results.size(); ++i) {
     const Status& result = out.results[i];
     if (!result.ok() && result.code() != StatusCode::kCorrupt) return result;
     if (!result.ok() && damage_.ok()) damage_ = result;
     if (!result.ok()) continue;
-    given_[out.run.begin + i] = true;
+    decoded_[out.run.begin + i] = true;
     const size_t size = out.first[i + 1] - out.first[i];
     if (end != out.first[i]) std::copy_n(out.positions + out.first[i], size, out.positions + end);
     end += size;
-    const GroupHeader& header = container_.groups[out.run.begin + i].header;
-    shot.frame_count += header.frame_count;
-    decoded_.emplace_back(header.first_frame, header.frame_count);
+    shot.frame_count += container_.groups[out.run.begin + i].header.frame_count;
   }
   shot.positions.resize(end);
   return {};
@@ -166,7 +161,7 @@ Status SequenceDecoder::add_shot(const ReferenceChunk& reference, const Run& run
 }
 
 // In the frames that have positions.
-Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& kept,
+Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& kept, const Run& run,
                                    const Shot& shot, Attribute& attribute) {
   if (!attribute.animated) return {};
   if (kept->header.computed()) {
@@ -175,12 +170,15 @@ Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& k
       status = attributes_.append_normals(*kept, shot.frame(t), attribute.values);
     return status;
   }
-  for (const auto& [first_frame, frame_count] : decoded_) {
-    const AttributeGroupChunk* part = container_.attribute_group(first_frame, kept->header.index);
+  for (size_t g = run.begin; g < run.end; ++g) {
+    if (!decoded_[g]) continue;
+    const GroupHeader& group = container_.groups[g].header;
+    const AttributeGroupChunk* part =
+        container_.attribute_group(group.first_frame, kept->header.index);
     if (part == nullptr)
       return Status::corrupt("attribute \"" + attribute.name + "\" is missing in frame " +
-                             std::to_string(uint64_t{first_frame} + 1));
-    for (uint32_t t = 0; t < frame_count; ++t) {
+                             std::to_string(uint64_t{group.first_frame} + 1));
+    for (uint32_t t = 0; t < group.frame_count; ++t) {
       Status s = attributes_.append_frame(kept, *part, t, resolve_threads(options_.threads), {},
                                           attribute.values);
       if (!s.ok()) return s;
@@ -190,7 +188,8 @@ Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& k
 }
 
 // One that does not decode is left out.
-Status SequenceDecoder::add_attributes(const ReferenceChunk& reference, Shot& shot) {
+Status SequenceDecoder::add_attributes(const ReferenceChunk& reference, const Run& run,
+                                       Shot& shot) {
   for (const AttributeChunk& chunk : container_.attributes) {
     if (chunk.header.shot != reference.header.shot) continue;
     std::shared_ptr<const KeptAttribute> kept;
@@ -202,7 +201,7 @@ Status SequenceDecoder::add_attributes(const ReferenceChunk& reference, Shot& sh
     if (!output_.grow(account_, frames * attribute_bytes(kept->header, shot.connectivity)))
       return Status::limit("the sequence needs more memory than the limit allows");
     Attribute attribute = kept->attribute;
-    if (Status s = add_frames(kept, shot, attribute); s.code() == StatusCode::kCorrupt) {
+    if (Status s = add_frames(kept, run, shot, attribute); s.code() == StatusCode::kCorrupt) {
       if (damage_.ok()) damage_ = s;
     } else if (!s.ok()) {
       return s;
@@ -254,7 +253,7 @@ Status SequenceDecoder::run(Sequence& out) {
   out.start_time = container_.header.start_time;
   for (const MetadataEntry& m : container_.metadata) out.metadata[m.key] = m.value;
   const auto& groups = container_.groups;
-  given_.assign(groups.size(), false);
+  decoded_.assign(groups.size(), false);
   for (Run run; run.begin < groups.size(); run.begin = run.end) {
     const uint32_t shot = groups[run.begin].header.shot;
     while (run.end < groups.size() && groups[run.end].header.shot == shot) ++run.end;
@@ -266,7 +265,7 @@ Status SequenceDecoder::run(Sequence& out) {
     if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
     if (out.shots.back().frame_count == 0) {
       out.shots.pop_back();
-    } else if (Status s = add_attributes(*reference, out.shots.back()); !s.ok()) {
+    } else if (Status s = add_attributes(*reference, run, out.shots.back()); !s.ok()) {
       return s;
     }
   }
@@ -280,8 +279,8 @@ std::vector<StreamInfo::Gap> SequenceDecoder::missing() const {
   const auto close_gap = [&](uint32_t end) {
     if (next < end) gaps.push_back({next, end - next});
   };
-  for (size_t g = 0; g < given_.size(); ++g) {
-    if (!given_[g]) continue;
+  for (size_t g = 0; g < decoded_.size(); ++g) {
+    if (!decoded_[g]) continue;
     const GroupHeader& h = container_.groups[g].header;
     close_gap(h.first_frame);
     next = h.first_frame + h.frame_count;
