@@ -17,12 +17,6 @@ void append_varuint(std::vector<uint8_t>& out, uint64_t value) {
   out.push_back(static_cast<uint8_t>(value));
 }
 
-size_t varuint_size(uint64_t value) {
-  size_t n = 1;
-  for (; value >= 0x80; value >>= 7) ++n;
-  return n;
-}
-
 void append_u32(std::vector<uint8_t>& out, uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<uint8_t>(value >> shift));
 }
@@ -37,8 +31,6 @@ void append_f64(std::vector<uint8_t>& out, double value) {
   out.push_back(static_cast<uint8_t>(n));
   for (size_t i = 0; i < n; ++i) out.push_back(static_cast<uint8_t>(bits >> (56 - 8 * i)));
 }
-
-size_t f64_size(double value) { return 1 + significant_bytes(std::bit_cast<uint64_t>(value)); }
 
 void ByteReader::fail(bool ran_out) {
   if (ok_) ran_out_ = ran_out;

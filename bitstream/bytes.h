@@ -12,7 +12,6 @@ namespace reeb {
 /// Least-significant seven bits first, high bit set on all bytes but the last; 1 .. 10 bytes, no
 /// padding (the last byte is 0 only for the value 0).
 void append_varuint(std::vector<uint8_t>& out, uint64_t value);
-size_t varuint_size(uint64_t value);
 
 void append_u32(std::vector<uint8_t>& out, uint32_t value);
 void append_f32(std::vector<uint8_t>& out, float value);
@@ -20,7 +19,6 @@ void append_f32(std::vector<uint8_t>& out, float value);
 /// A count n of 0 .. 8, then the n most significant bytes of the binary64 value, most significant
 /// first; the bytes left out are 0. Exact for every value, 3 bytes for 30.0.
 void append_f64(std::vector<uint8_t>& out, double value);
-size_t f64_size(double value);
 
 /// Reads from the front of a span. After the first failure every read gives 0 and `ok()` stays
 /// false.
