@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "segmentation/affine_fit.h"
+#include "segmentation/own_unit.h"
 #include "segmentation/patches.h"
 #include "segmentation/regions.h"
 #include "segmentation/surface.h"
@@ -231,11 +232,13 @@ class BorderAdjuster {
 
 }  // namespace
 
-MotionPartitions::MotionPartitions(const MotionInput& input, const Result& segmentation,
+MotionPartitions::MotionPartitions(const MotionInput& whole_input, const Result& segmentation,
                                    uint32_t patch_vertices) {
   if (segmentation.labels.empty()) return;
   const uint32_t vertices = static_cast<uint32_t>(segmentation.labels.size());
   const uint32_t per_patch = std::max({patch_vertices, 5u, vertices / kMaxPatches});
+  const OwnUnit own = in_own_unit(whole_input.positions);
+  const MotionInput input{own.positions, whole_input.triangles, whole_input.frames};
   const Pieces pieces = split_pieces(input.positions, input.triangles, true);
   patches_ = patches_of(input, pieces, segmentation.labels, per_patch);
   finest_ = renumber(patches_);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "segmentation/own_unit.h"
 #include "segmentation/piece.h"
 #include "segmentation/regions.h"
 #include "segmentation/surface.h"
@@ -197,7 +198,14 @@ uint32_t Graph::loops() const {
 
 Result segment(std::span<const float> positions, std::span<const uint32_t> triangles,
                const Options& options) {
-  return Segmenter(positions, triangles, checked(options)).run();
+  const OwnUnit own = in_own_unit(positions);
+  Result result = Segmenter(own.positions, triangles, checked(options)).run();
+  for (RegionLink& link : result.links) {
+    link.border *= own.unit;
+    link.gap *= own.unit;
+  }
+  for (double& area : result.region_areas) area *= own.unit * own.unit;
+  return result;
 }
 
 }  // namespace reeb::segmentation

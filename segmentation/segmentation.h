@@ -91,14 +91,9 @@ struct Result {
 /// Segments the mesh of V = positions.size() / 3 vertices (x, y, z each) and triangles.size() / 3
 /// triangles (three vertex indices each). Never fails: triangles with an index out of range, a
 /// repeated index or a vertex that is not finite are ignored with a warning, and the worst input
-/// gives one region. The same input gives the same result on the same machine.
+/// gives one region. The same input gives the same result on the same machine, in every unit that
+/// is a power of two.
 Result segment(std::span<const float> positions, std::span<const uint32_t> triangles,
                const Options& options = {});
-
-/// Labels of a coarser partition: regions are merged along `result.links`, smallest first, until
-/// `target_count` (at least 1) are left. Partitions are nested: the one of a smaller count is a
-/// union of regions of any larger. Labels are 0 .. min(target_count, region_count) - 1, in order of
-/// the first vertex.
-std::vector<uint32_t> merge_regions(const Result& result, uint32_t target_count);
 
 }  // namespace reeb::segmentation

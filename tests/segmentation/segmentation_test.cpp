@@ -295,25 +295,21 @@ TEST_CASE("options out of range are brought into range") {
   CHECK(result.region_count == 1);
 }
 
-TEST_CASE("merged partitions are nested and reach their count") {
-  Mesh mesh = shapes::implicit_surface(hand, 1.9, 48);
-  Mesh far = shapes::torus(40, 16, 2, 0.6);
-  for (size_t i = 0; i < far.positions.size(); i += 3) far.positions[i] += 10;
-  mesh.append(far);
-  const Result result = segment_mesh(mesh);
-  REQUIRE(result.region_count > 6);
-  std::vector<uint32_t> finer = result.labels;
-  for (uint32_t count = result.region_count; count >= 1; --count) {
-    const std::vector<uint32_t> labels = merge_regions(result, count);
-    const std::set<uint32_t> used(labels.begin(), labels.end());
-    CHECK(used.size() == count);
-    CHECK(*used.rbegin() == count - 1);
-    std::map<uint32_t, uint32_t> coarse_of;
-    for (size_t v = 0; v < labels.size(); ++v) {
-      REQUIRE(coarse_of.try_emplace(finer[v], labels[v]).first->second == labels[v]);
+TEST_CASE("regions do not depend on the unit of length") {
+  const Mesh mesh = shapes::implicit_surface(hand, 1.9, 48);
+  const Result whole = segment_mesh(mesh);
+  for (const int exponent : {-100, -30, -20, 20, 60}) {
+    Mesh scaled = mesh;
+    for (float& x : scaled.positions) x = std::ldexp(x, exponent);
+    const Result result = segment_mesh(scaled);
+    CHECK(result.labels == whole.labels);
+    CHECK(result.scalar == whole.scalar);
+    REQUIRE(result.links.size() == whole.links.size());
+    for (size_t i = 0; i < whole.links.size(); ++i) {
+      CHECK(result.links[i].border == std::ldexp(whole.links[i].border, exponent));
+      CHECK(result.links[i].gap == std::ldexp(whole.links[i].gap, exponent));
     }
-    finer = labels;
+    for (size_t r = 0; r < whole.region_areas.size(); ++r)
+      CHECK(result.region_areas[r] == std::ldexp(whole.region_areas[r], 2 * exponent));
   }
-  CHECK(merge_regions(result, 0) == merge_regions(result, 1));
-  CHECK(merge_regions(result, 1000) == merge_regions(result, result.region_count));
 }
