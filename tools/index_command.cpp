@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kSaveInterval{20};
 struct Options {
   std::vector<std::string> inputs;
   std::string output;
-  uint32_t frames = 3;
+  uint32_t poses = 3;
   unsigned threads = 0;
   ConsoleOptions console;
 };
@@ -108,7 +108,7 @@ class Indexer {
     const Status status = read_sequence({file.path}, {.threads = 1}, sequence, report);
     if (!status.ok()) return status;
     std::string complaint;
-    file.shapes = sign_frames(sequence, options_.frames, complaint);
+    file.shapes = sign_frames(sequence, options_.poses, complaint);
     return file.shapes.empty() ? Status::invalid(file.path + ": " + complaint) : Status();
   }
 
@@ -177,7 +177,7 @@ void add_index_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("--frames", o->frames,
+      ->add_option("--poses", o->poses,
                    "Frames signed of a sequence, spread over it, 1 to 1000; default 3")
       ->check(CLI::Range(1u, 1000u).description(""))
       ->type_name("N");

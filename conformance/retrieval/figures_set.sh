@@ -8,6 +8,6 @@ folder=$2
 kinds=$("$reeb" sample none -o none.pc2 2>&1 | sed 's/.*kinds: //; s/,//g' || true)
 for kind in $kinds; do
   for individual in {1..10}; do
-    "$reeb" sample "$kind-$individual" --frames 1 -q -f -o "$folder/$kind/${kind}_${individual}_%d.off"
+    "$reeb" sample "$kind-$individual" --length 1 -q -f -o "$folder/$kind/${kind}_${individual}_%d.off"
   done
 done
