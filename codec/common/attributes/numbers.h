@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "bitstream/attribute_headers.h"
 #include "bitstream/status.h"
 #include "codec/common/base/attributes.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bitstream/attribute_headers.h"
+#include "bitstream/attribute_kinds.h"
 
 namespace reeb {
 

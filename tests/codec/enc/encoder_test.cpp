@@ -28,12 +28,20 @@ Sequence small() { return sequence_of({animate(tetrahedron(), 3)}); }
 }  // namespace
 
 TEST_CASE("options out of range are refused", "[encoder]") {
-  for (const double value : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EncodeOptions options = quick_options();
-    options.target_value = value;
+  EncodeOptions options = quick_options();
+  for (const Target target : {Target::kKg, Target::kMaxError, Target::kBpvf, Target::kSize}) {
+    options.target = target;
+    for (const double value : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+      options.target_value = value;
+      check_refused(small(), options);
+    }
+  }
+  for (const Target target : {Target::kBpvf, Target::kSize}) {
+    options.target = target;
+    options.target_value = 0;
     check_refused(small(), options);
   }
-  EncodeOptions options = quick_options();
+  options = quick_options();
   options.group_length = 65537;
   check_refused(small(), options);
   options = quick_options();
