@@ -46,7 +46,9 @@ class StreamWriter {
       console_.error(status.message());
       return kExitUsage;
     }
-    status = write_present();
+    if (name.extension != ".obj" && name.extension != ".off")
+      status = refuse_terminal(options_.output, options_.overwrite);
+    if (status.ok()) status = write_present();
     if (status.code() == StatusCode::kCorrupt && !searched_) status = write_after_search();
     if (!status.ok()) return fail(console_, status);
     console_.say(options_.output + ": " + counted(written_, "frame"));

@@ -104,8 +104,12 @@ fs::path resolved(const fs::path& path) {
 }  // namespace
 
 Status check_target(const fs::path& target, bool overwrite) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(target, ignored);
+  std::error_code failed;
+  const fs::file_status status = fs::status(target, failed);
+  if (failed == std::errc::filename_too_long) {
+    return Status::io(target.string() + ": cannot be written (" + failed.message() +
+                      "); give it a shorter name");
+  }
   if (is_special(target) && !fs::is_directory(status)) return {};
   if (fs::is_directory(status)) {
     return Status::io(target.string() + ": is a folder; name a file in it");

@@ -1,5 +1,7 @@
 #include "codec/common/attributes/site_mesh.h"
 
+#include <algorithm>
+
 #include "codec/common/mesh/faces.h"
 #include "codec/common/reference/face_order.h"
 
@@ -55,7 +57,7 @@ SiteMesh face_sites(const ShotSurface& surface) {
     for (const size_t end = corner + size; corner < end; ++corner) {
       for (size_t i = 0; i < 3; ++i) sum[i] += surface.grid[size_t{c.corners[corner]} * 3 + i];
     }
-    for (const int64_t x : sum) out.grid.push_back(static_cast<int32_t>(x / size));
+    for (const int64_t x : sum) out.grid.push_back(static_cast<int32_t>(x / std::max(size, 1u)));
   }
   return out;
 }
