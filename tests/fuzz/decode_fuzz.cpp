@@ -43,8 +43,8 @@ std::vector<uint8_t> decode(std::span<const uint8_t> bytes, bool backwards) {
     frames[frame] = decode_attributes(*decoder, frame);
     std::vector<float> xyz(size_t{connectivity->vertex_count} * 3);
     if (!decoder->decode_frame(frame, xyz.data()).ok()) continue;
-    const auto* bytes = reinterpret_cast<const uint8_t*>(xyz.data());
-    frames[frame].insert(frames[frame].end(), bytes, bytes + xyz.size() * sizeof(float));
+    const auto* raw = reinterpret_cast<const uint8_t*>(xyz.data());
+    frames[frame].insert(frames[frame].end(), raw, raw + xyz.size() * sizeof(float));
   }
   std::vector<uint8_t> out;
   for (const auto& f : frames) out.insert(out.end(), f.begin(), f.end());
