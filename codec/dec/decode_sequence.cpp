@@ -193,7 +193,7 @@ Status SequenceDecoder::add_attributes(const ReferenceChunk& reference, const Ru
   for (const AttributeChunk& chunk : container_.attributes) {
     if (chunk.header.shot != reference.header.shot) continue;
     std::shared_ptr<const KeptAttribute> kept;
-    const Status status = attributes_.get(chunk, reference, kept);
+    Status status = attributes_.get(chunk, reference, kept);
     if (status.code() == StatusCode::kCorrupt && damage_.ok()) damage_ = status;
     if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
     if (!status.ok()) continue;
@@ -296,7 +296,7 @@ Status decode_sequence(std::span<const uint8_t> bytes, const DecodeOptions& opti
   out = {};
   Status status = guarded([&] {
     SequenceDecoder decoder(bytes, options);
-    const Status result = decoder.run(out);
+    Status result = decoder.run(out);
     if (missing != nullptr) *missing = decoder.missing();
     return result;
   });
