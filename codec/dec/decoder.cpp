@@ -170,7 +170,7 @@ Status Decoder::Impl::describe_attributes(uint32_t frame, std::vector<Attribute>
   for (const AttributeChunk& a : container.attributes) {
     if (a.header.shot != reference->header.shot) continue;
     Attribute description;
-    const Status status = attribute_store.describe(a, description);
+    Status status = attribute_store.describe(a, description);
     if (status.code() == StatusCode::kCorrupt) continue;
     if (!status.ok()) return status;
     out.push_back(std::move(description));
