@@ -28,9 +28,10 @@ void snap(Shot& shot, const NumberSet& multiples, double bound) {
 
 /// Sum of squares of a frame about the mean of each axis.
 double energy_of(std::span<const float> frame) {
+  const size_t vertices = frame.size() / 3;
   std::array<double, 3> mean{};
   for (size_t i = 0; i < frame.size(); ++i) mean[i % 3] += static_cast<double>(frame[i]);
-  for (double& m : mean) m /= static_cast<double>(frame.size() / 3);
+  for (double& m : mean) m /= static_cast<double>(vertices);
   double energy = 0;
   for (size_t i = 0; i < frame.size(); ++i) {
     const double d = static_cast<double>(frame[i]) - mean[i % 3];
