@@ -143,6 +143,8 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
+inline constexpr size_t kBoxBytes = 24;
+
 template <class V>
 void describe(V& v, Box& h) {
   constexpr double kMost = std::numeric_limits<float>::max();
@@ -162,7 +164,7 @@ struct GroupBoxes {
 
 template <class V>
 void describe(V& v, GroupBoxes& h) {
-  v.list("group_count", h.groups, 24);
+  v.list("group_count", h.groups, kBoxBytes);
 }
 
 }  // namespace reeb

@@ -78,6 +78,11 @@ class ContainerWriter {
   uint64_t noted_end_ = 0;
 };
 
+/// A copy of `file`, which must be whole, with `entries` in its metadata, in place of those there
+/// that have their keys. `out` is empty after a failure.
+Status add_metadata(std::span<const uint8_t> file, const std::vector<MetadataEntry>& entries,
+                    std::vector<uint8_t>& out);
+
 struct ReferenceChunk {
   ReferenceHeader header;
   MeshHeader mesh_header;         ///< peeked from the front of `mesh`

@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "bitstream/headers.h"
+#include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/archive/stored_signature.h"
 #include "tools/command.h"
 #include "tools/damage.h"
+#include "tools/encoding_report.h"
 #include "tools/frame_selection.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
@@ -41,6 +42,7 @@ struct Options {
   bool json = false;
   bool allow_gaps = false;
   bool signature = false;
+  bool no_report = false;
   bool keep_going = false;
   FrameSelection frames;
   std::optional<double> frame_rate;
@@ -97,6 +99,47 @@ Status count_rounding(const Sequence& sequence, const ReadReport& read,
   stats.kg = comparison.overall.kg;
   stats.rmse = comparison.overall.rmse;
   stats.max_error = comparison.overall.max_error;
+  return {};
+}
+
+/// What the file is to say of its target, as that was asked for.
+EncodingReport aim_of(const EncodeOptions& aim) {
+  EncodingReport out;
+  switch (aim.target) {
+    case Target::kKg:
+      out.target = "kg";
+      break;
+    case Target::kMaxError:
+      out.target = "max-error";
+      break;
+    case Target::kBpvf:
+      out.target = "bpvf";
+      break;
+    case Target::kSize:
+      out.target = "size";
+      break;
+    case Target::kLossless:
+      out.target = "lossless";
+      break;
+  }
+  if (aim.target != Target::kLossless) out.wanted = aim.target_value;
+  return out;
+}
+
+/// Notes the measured errors in the file, whose sizes are then `stats`.
+Status keep_report(const Sequence& sequence, EncodingReport report, std::vector<uint8_t>& bytes,
+                   EncodeStats& stats) {
+  report.kg = stats.kg;
+  report.rmse = stats.rmse;
+  report.max_error = stats.max_error;
+  if (Status s = fill_report(report, bytes); !s.ok()) return s;
+  stats.bytes = bytes.size();
+  stats.bpvf = 8 * static_cast<double>(bytes.size()) / static_cast<double>(vertex_frames(sequence));
+  stats.sections.clear();
+  ContainerReader container;
+  if (!container.parse(bytes, Limits{}).ok()) return {};
+  for (const auto& [name, size] : container.sections)
+    stats.sections.push_back({name, 8 * static_cast<double>(size)});
   return {};
 }
 
@@ -226,6 +269,10 @@ int run(Options& o) {
 
   if (o.signature) keep_signature(sequence, console);
   choose_target(o, sequence, o.encoder);
+  const EncodingReport aim = aim_of(o.encoder);
+  sequence.metadata.erase(kReportKey);  // of what the input was decoded from
+  if (!o.no_report) reserve_report(aim, sequence.metadata);
+  o.encoder.bounds = !o.no_report;
   if (status = allow_for_rounding(read, o.encoder); !status.ok()) return fail(console, status);
   o.encoder.threads = o.threads;
   if (const auto bar = console.bar("encoding")) {
@@ -242,6 +289,7 @@ int run(Options& o) {
   if (status.ok() && read.largest_remainder > 0 && order_kept) {
     status = count_rounding(sequence, read, bytes, stats);
   }
+  if (status.ok() && !o.no_report) status = keep_report(sequence, aim, bytes, stats);
   if (status.ok()) status = write_stream(o, bytes, files);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);
@@ -376,6 +424,10 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   command->add_flag("--signature", o->signature,
                     "Keep what the shape is recognised by, some 8 kB, so that reeb index does not "
                     "decode the file");
+  command->add_flag(
+      "--no-report", o->no_report,
+      "Keep neither target and measured errors nor the boxes that groups lie in, some "
+      "90 bytes and 24 a group, which reeb info tells and players use");
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });

@@ -6,6 +6,7 @@
 #include "codec/dec/decoder.h"
 #include "tools/command.h"
 #include "tools/damage.h"
+#include "tools/encoding_report.h"
 #include "tools/io/file_bytes.h"
 #include "tools/json.h"
 #include "tools/text.h"
@@ -26,6 +27,64 @@ double bits_per_vertex_and_frame(const StreamInfo& info) {
   double n = 0;
   for (const auto& shot : info.shots) n += double{1} * shot.vertex_count * shot.frame_count;
   return n > 0 ? 8 * static_cast<double>(info.file_bytes) / n : 0;
+}
+
+const char* name_of(Profile profile) {
+  switch (profile) {
+    case Profile::kMain:
+      return "main";
+    case Profile::kFast:
+      return "fast";
+    case Profile::kThesis:
+      return "thesis";
+    case Profile::kLossless:
+      return "lossless";
+  }
+  return "";
+}
+
+/// Of the groups, each once.
+std::vector<std::string> profiles_of(const StreamInfo& info) {
+  std::vector<std::string> out;
+  for (const auto& g : info.groups) {
+    const char* const name = name_of(g.profile);
+    if (std::find(out.begin(), out.end(), name) == out.end()) out.emplace_back(name);
+  }
+  return out;
+}
+
+/// Around all groups; false where the file does not tell.
+bool box_of(const StreamInfo& info, Box& out) {
+  if (info.bounds.empty()) return false;
+  out = info.bounds.front();
+  for (const Box& box : info.bounds) {
+    for (size_t i = 0; i < 3; ++i) {
+      out.low[i] = std::min(out.low[i], box.low[i]);
+      out.high[i] = std::max(out.high[i], box.high[i]);
+    }
+  }
+  return true;
+}
+
+bool report_of(const StreamInfo& info, EncodingReport& out) {
+  return std::any_of(info.metadata.begin(), info.metadata.end(), [&](const auto& entry) {
+    return entry.first == kReportKey && parse_report(entry.second, out);
+  });
+}
+
+Json to_json(const Box& box) { return {{"low", box.low}, {"high", box.high}}; }
+
+/// How the file was made and where it lies, as far as it tells.
+void add_report(const StreamInfo& info, Json& json) {
+  json["profiles"] = profiles_of(info);
+  Box box;
+  json["box"] = box_of(info, box) ? to_json(box) : Json();
+  EncodingReport report;
+  const bool told = report_of(info, report);
+  json["target"] = told ? Json{{"kind", report.target}, {"value", report.wanted}} : Json();
+  json["error"] =
+      told ? Json{{"kg", report.kg}, {"rmse", report.rmse}, {"max_error", report.max_error}}
+           : Json();
 }
 
 Json to_json(const std::string& name, const StreamInfo& info) {
@@ -58,13 +117,45 @@ Json to_json(const std::string& name, const StreamInfo& info) {
                               {"components", g.component_count},
                               {"bytes", g.bytes},
                               {"continues", g.continues},
+                              {"profile", name_of(g.profile)},
                               {"lossless", g.profile == Profile::kLossless}});
   }
+  for (size_t g = 0; g < info.bounds.size(); ++g)
+    json["groups"][g]["box"] = to_json(info.bounds[g]);
+  add_report(info, json);
   for (const auto& gap : info.missing)
     json["missing"].push_back({{"first_frame", gap.first_frame + 1}, {"frames", gap.frame_count}});
   for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
   for (const auto& [key, value] : info.metadata) json["metadata"][key] = value;
   return json;
+}
+
+std::string target_text(const EncodingReport& report) {
+  const std::string value = plain(report.wanted, 9);
+  if (report.target == "kg") return "KG " + value + " %";
+  if (report.target == "max-error") return "no coordinate further off than " + value;
+  if (report.target == "bpvf") return value + " bits per vertex and frame";
+  return report.target == "size" ? grouped(static_cast<uint64_t>(report.wanted)) + " bytes"
+                                 : report.target;
+}
+
+std::string point_text(const float* xyz) {
+  return "(" + plain(xyz[0]) + ", " + plain(xyz[1]) + ", " + plain(xyz[2]) + ")";
+}
+
+void print_report(const StreamInfo& info, std::ostream& out) {
+  const std::vector<std::string> profiles = profiles_of(info);
+  for (size_t i = 0; i < profiles.size(); ++i) out << (i > 0 ? ", " : "") << profiles[i];
+  if (!profiles.empty()) out << " profile";
+  EncodingReport report;
+  if (report_of(info, report)) {
+    out << ", target: " << target_text(report) << "\nerror when encoded: KG " << plain(report.kg)
+        << " %, RMSE " << plain(report.rmse) << ", maximum " << plain(report.max_error);
+  }
+  out << "\n";
+  Box box;
+  if (box_of(info, box))
+    out << "within " << point_text(box.low) << " to " << point_text(box.high) << "\n";
 }
 
 void print_text(const std::string& name, const StreamInfo& info, std::ostream& out) {
@@ -75,6 +166,7 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
   if (info.frame_rate > 0) out << " at " << plain(info.frame_rate, 6) << " per second";
   if (info.start_time != 0) out << ", from time " << plain(info.start_time, 6);
   out << "\n";
+  print_report(info, out);
   for (const auto& s : info.shots) {
     out << "from frame " << grouped(s.first_frame + 1) << ": " << counted(s.frame_count, "frame")
         << " of " << counted(s.vertex_count, "vertex") << ", " << counted(s.face_count, "face")
@@ -97,7 +189,11 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
         << "\n";
   }
   for (const auto& s : info.sections) out << "  " << s.name << ": " << byte_size(s.bytes) << "\n";
-  for (const auto& [key, value] : info.metadata) out << "  " << key << " = " << value << "\n";
+  EncodingReport told;
+  for (const auto& [key, value] : info.metadata) {
+    if (key != kReportKey || !parse_report(value, told))
+      out << "  " << key << " = " << value << "\n";
+  }
 }
 
 /// What a file holds goes to `text` or `json`; what it lacks is said. Gives the exit code.

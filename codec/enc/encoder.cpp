@@ -5,12 +5,14 @@
 #include <span>
 #include <string>
 
+#include "bitstream/chunk.h"
 #include "bitstream/headers.h"
 #include "codec/common/base/float_state.h"
 #include "codec/common/base/largest_magnitude.h"
 #include "codec/common/base/parallel.h"
 #include "codec/enc/attributes/attach.h"
 #include "codec/enc/lossless/lossless_sequence.h"
+#include "codec/enc/search/group_plan.h"
 #include "codec/enc/search/lossless_offer.h"
 #include "codec/enc/search/profile_tools.h"
 #include "codec/enc/search/sequence_encoder.h"
@@ -127,22 +129,37 @@ Status encode_positions(const Sequence& sequence, const EncodeOptions& options,
   return offer_lossless(sequence, options, out, stats);
 }
 
-/// Adds attributes. Where they take the file past its target, positions are coded once more, for
-/// less.
-Status add_attributes(const Sequence& sequence, const EncodeOptions& options,
+/// Bytes of one unit of a target that is a size; 0 of others.
+double bytes_of_unit(const Sequence& sequence, const EncodeOptions& options) {
+  if (options.target == Target::kSize) return 1;
+  return options.target == Target::kBpvf ? vertex_frames_of(sequence) / 8 : 0;
+}
+
+/// The target, less what the boxes of the groups are likely to take of it.
+EncodeOptions with_room_for_boxes(const Sequence& sequence, const EncodeOptions& options) {
+  EncodeOptions out = options;
+  const double unit = bytes_of_unit(sequence, options);
+  if (!options.bounds || unit == 0) return out;
+  size_t bytes = kMaxFrontBytes;
+  for (const Shot& shot : sequence.shots) bytes += plan_groups(shot, options).size() * kBoxBytes;
+  const double rest = options.target_value - static_cast<double>(bytes) / unit;
+  if (rest > 0) out.target_value = rest;
+  return out;
+}
+
+/// Adds attributes to what was coded with the options `less`. Where they take the file past its
+/// target, positions are coded once more, for less.
+Status add_attributes(const Sequence& sequence, const EncodeOptions& options, EncodeOptions less,
                       std::vector<uint8_t>& out, EncodeStats& stats) {
   constexpr int kTrials = 4;
   const double vertex_frames = vertex_frames_of(sequence);
-  const double unit = options.target == Target::kSize   ? 1
-                      : options.target == Target::kBpvf ? vertex_frames / 8
-                                                        : 0;
+  const double unit = bytes_of_unit(sequence, options);
   const AnimatedOptions animated = {
       .profile = options.profile == Profile::kFast ? Profile::kFast : Profile::kMain,
       .quick = options.effort <= kQuickEffort,
       .bounds = options.bounds,
       .trials = options.effort,
       .threads = resolve_threads(options.threads)};
-  EncodeOptions less = options;
   for (int trial = 0;; ++trial) {
     if (Status s = attach_attributes(sequence, animated, out); !s.ok()) return s;
     const double excess = static_cast<double>(out.size()) - options.target_value * unit;
@@ -167,9 +184,10 @@ Status encode(const Sequence& sequence, const EncodeOptions& options, std::vecto
   out.clear();
   stats = {};
   if (Status s = check(sequence, options); !s.ok()) return s;
-  Status status = encode_positions(sequence, options, out, stats);
+  const EncodeOptions less = with_room_for_boxes(sequence, options);
+  Status status = encode_positions(sequence, less, out, stats);
   if (status.ok() && (has_attributes(sequence) || options.bounds))
-    status = add_attributes(sequence, options, out, stats);
+    status = add_attributes(sequence, options, less, out, stats);
   if (!status.ok()) out.clear();
   return status;
 }

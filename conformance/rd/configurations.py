@@ -43,7 +43,8 @@ class Configuration:
         if self.peer:
             return [programs[self.peer + "_peer"], "encode", setting, stream, *inputs]
         target = ("--lossless",) if self.unit == "lossless" else ("--" + self.unit, setting)
-        return [programs["reeb"], "encode", *inputs, "-o", stream, *target, *self.options, "-T", "1", "--json", "-q"]
+        return [programs["reeb"], "encode", *inputs, "-o", stream, *target, *self.options, "--no-report",
+                "-T", "1", "--json", "-q"]
 
     def decode_command(self, programs, stream, decoded):
         if self.peer:

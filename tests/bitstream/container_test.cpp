@@ -1,5 +1,6 @@
 #include "bitstream/container.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -215,4 +216,37 @@ TEST_CASE("the writer refuses fields out of range", "[container]") {
   GroupHeader group;
   group.frame_count = 0;
   CHECK(writer.group(group, {}).code() == StatusCode::kInvalidArgument);
+}
+
+TEST_CASE("metadata are added to a whole file", "[container]") {
+  const Bytes file = two_shot_file();
+  Bytes more;
+  REQUIRE(add_metadata(file, {{"unit", "cm"}, {"error", std::string(300, '1')}}, more).ok());
+  ContainerReader before, after;
+  REQUIRE(before.parse(file, {}).ok());
+  // Through a source, so that the seek table leads to the chunks.
+  MemorySource source(more);
+  REQUIRE(after.open(source, {}).ok());
+  CHECK(after.metadata == std::vector<MetadataEntry>{
+                              {"name", "walk"}, {"unit", "cm"}, {"error", std::string(300, '1')}});
+  CHECK(after.damaged.empty());
+  CHECK_FALSE(after.truncated);
+  REQUIRE(after.groups.size() == 3);
+  for (size_t i = 0; i < 3; ++i) {
+    CHECK(after.groups[i].header == before.groups[i].header);
+    // Less the byte by which the first gap of the seek table is longer.
+    CHECK(after.groups[i].offset - before.groups[i].offset == more.size() - file.size() - 1);
+    Bytes buffer;
+    GroupChunk chunk = after.groups[i];
+    REQUIRE(load_chunk(source, buffer, chunk).ok());
+    CHECK(std::ranges::equal(chunk.coefficients, before.groups[i].coefficients));
+  }
+  // The same as if they had been there from the start.
+  Bytes again;
+  REQUIRE(add_metadata(more, {{"name", "walk"}, {"unit", "m"}, {"error", ""}}, again).ok());
+  CHECK(again.size() == file.size() + 7);
+  for (size_t size = 0; size < file.size(); ++size) {
+    CHECK_FALSE(add_metadata(std::span(file).first(size), {{"a", "b"}}, again).ok());
+    CHECK(again.empty());
+  }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "codec/enc/search/group_plan.h"
 #include "segmentation/segmentation.h"
 #include "segmentation/union_find.h"
 
@@ -14,30 +15,7 @@ namespace {
 constexpr double kGroupOverhead = 8 * 60;  ///< bits of headers, checksums and the seek table
 // Weights need no finer reference than this; fitted to what trials chose on ten sequences.
 constexpr double kGridBase = 3.6;
-constexpr double kGridSlope = 0.6;       ///< bits per halving of the error
-constexpr uint32_t kLongestGroup = 512;  ///< frames, unless asked for
-constexpr uint64_t kGroupSamples =
-    100'000'000;  ///< vertices times frames, to bound the encoder's memory
-
-uint32_t default_group_length(const Shot& shot) {
-  const uint64_t by_memory = std::max<uint64_t>(1, kGroupSamples / shot.connectivity.vertex_count);
-  return static_cast<uint32_t>(std::min<uint64_t>(kLongestGroup, by_memory));
-}
-
-/// Lengths as equal as can be, none above `longest`.
-std::vector<uint32_t> split_evenly(uint32_t frames, uint32_t longest) {
-  const uint32_t parts = (frames + longest - 1) / longest;
-  std::vector<uint32_t> lengths(parts, frames / parts);
-  for (uint32_t i = 0; i < frames % parts; ++i) ++lengths[i];
-  return lengths;
-}
-
-/// Groups of the length asked for, the last one shorter.
-std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
-  std::vector<uint32_t> lengths(frames / length, length);
-  if (frames % length != 0) lengths.push_back(frames % length);
-  return lengths;
-}
+constexpr double kGridSlope = 0.6;  ///< bits per halving of the error
 
 }  // namespace
 
@@ -51,11 +29,8 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
       bound_(options.target == Target::kMaxError ? options.target_value : 0),
       open_groups_(options.open_groups),
       longest_side_(bounds_of(shot.frame(0)).side) {
-  const std::vector<uint32_t> lengths =
-      options.group_length > 0 ? split_by(shot.frame_count, options.group_length)
-                               : split_evenly(shot.frame_count, default_group_length(shot));
   uint32_t first = 0;
-  for (const uint32_t length : lengths) {
+  for (const uint32_t length : plan_groups(shot, options)) {
     GroupSignal signal = make_group_signal(shot, first, length);
     energy_ += signal.energy;
     largest_ = std::max(largest_, signal.largest);
