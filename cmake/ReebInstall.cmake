@@ -21,7 +21,8 @@ endfunction()
 # The decoder's development files go with either form of it.
 function(reeb_install_decoder_files component)
   install(
-    FILES bindings/c/reeb.h bindings/cpp/reeb.hpp ${PROJECT_BINARY_DIR}/bindings/include/reeb_version.h
+    FILES bindings/c/reeb.h bindings/c/reeb_attributes.h bindings/cpp/reeb.hpp bindings/cpp/reeb_attributes.hpp
+          ${PROJECT_BINARY_DIR}/bindings/include/reeb_version.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     COMPONENT ${component})
   install(

@@ -3,20 +3,23 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <memory_resource>
 #include <mutex>
 #include <new>
 #include <string>
 
+#include "bindings/c/handle.h"
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
 #include "codec/common/base/float_state.h"
-#include "codec/dec/decoder.h"
 
 namespace {
 
 using reeb::Status;
 using reeb::StatusCode;
+using reeb_c::adopt;
+using reeb_c::give;
+using reeb_c::make_target;
+using reeb_c::with_info;
 
 static_assert(static_cast<int>(StatusCode::kOk) == REEB_OK);
 static_assert(static_cast<int>(StatusCode::kInvalidArgument) == REEB_INVALID_ARGUMENT);
@@ -31,27 +34,6 @@ static_assert(static_cast<int>(StatusCode::kNeedMoreData) == REEB_NEED_MORE_DATA
 
 void* allocate_plainly(void*, size_t size) { return std::malloc(size); }
 void release_plainly(void*, void* block) { std::free(block); }
-
-/// The caller's allocator as the decoder wants it.
-class CallerMemory : public std::pmr::memory_resource {
- public:
-  explicit CallerMemory(const reeb_allocator& allocator) : allocator_(allocator) {}
-
- private:
-  void* do_allocate(size_t bytes, size_t) override {
-    void* const block = allocator_.allocate(allocator_.user, bytes > 0 ? bytes : 1);
-    if (block == nullptr) throw std::bad_alloc();
-    return block;
-  }
-  void do_deallocate(void* block, size_t, size_t) override {
-    allocator_.release(allocator_.user, block);
-  }
-  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override {
-    return this == &other;
-  }
-
-  reeb_allocator allocator_;
-};
 
 class CallbackSource : public reeb::ByteSource {
  public:
@@ -70,88 +52,6 @@ class CallbackSource : public reeb::ByteSource {
  private:
   reeb_reader reader_;
 };
-
-/// The caller's struct, members it does not know as 0; false where its size makes no sense.
-template <class Struct>
-bool adopt(const Struct* in, Struct& out) {
-  if (in == nullptr || in->struct_size < sizeof in->struct_size) return false;
-  out = {};
-  std::memcpy(&out, in, std::min(in->struct_size, sizeof out));
-  return true;
-}
-
-/// Fills as much of the caller's struct as it knows of.
-template <class Struct>
-reeb_result give(Struct from, Struct* out) {
-  if (out == nullptr || out->struct_size < sizeof out->struct_size) return REEB_INVALID_ARGUMENT;
-  from.struct_size = out->struct_size;
-  std::memcpy(out, &from, std::min(out->struct_size, sizeof from));
-  return REEB_OK;
-}
-
-template <class T>
-T or_default(T value, T standard) {
-  return value != 0 ? value : standard;
-}
-
-}  // namespace
-
-struct reeb_decoder {
-  explicit reeb_decoder(const reeb_options& o) : options(o), memory(o.allocator) {}
-
-  reeb_options options;
-  CallerMemory memory;
-  std::unique_ptr<reeb::Decoder> decoder;
-  std::mutex info_mutex;  ///< of the decoder's info, which pushing changes
-  std::mutex message_mutex;
-  std::string message;
-
-  reeb::DecodeOptions decode_options() {
-    const reeb::Limits standard;
-    const reeb_limits& l = options.limits;
-    reeb::DecodeOptions out;
-    out.limits = {.max_vertices = or_default(l.max_vertices, standard.max_vertices),
-                  .max_faces = or_default(l.max_faces, standard.max_faces),
-                  .max_frames = or_default(l.max_frames, standard.max_frames),
-                  .max_memory = or_default(l.max_memory, standard.max_memory)};
-    out.threads = or_default(options.threads, 1u);
-    out.prefetch = options.prefetch != 0;
-    out.cache_bytes = or_default(options.cache_bytes, out.cache_bytes);
-    out.memory = &memory;
-    return out;
-  }
-
-  void say(reeb_log_level level, const char* text) const {
-    if (options.log != nullptr) options.log(options.log_user, level, text);
-  }
-
-  /// Keeps the message of a failure.
-  reeb_result done(const Status& status) {
-    if (status.ok()) return REEB_OK;
-    say(REEB_LOG_ERROR, status.message().c_str());
-    try {
-      const std::lock_guard lock(message_mutex);
-      message = status.message();
-    } catch (const std::bad_alloc&) {  // the message before stays
-    }
-    return static_cast<reeb_result>(status.code());
-  }
-  reeb_result invalid(const char* what) {
-    try {
-      return done(Status::invalid(what));
-    } catch (const std::bad_alloc&) {
-      return REEB_INVALID_ARGUMENT;
-    }
-  }
-
-  void warn_of_damage() const {
-    const reeb::StreamInfo& info = decoder->info();
-    if (info.truncated) say(REEB_LOG_WARNING, "the file ends early");
-    if (!info.missing.empty()) say(REEB_LOG_WARNING, "some frames are damaged or cut off");
-  }
-};
-
-namespace {
 
 void destroy(reeb_decoder* decoder) {
   const reeb_allocator allocator = decoder->options.allocator;
@@ -177,10 +77,7 @@ class OpenReport {
 
  private:
   void copy(const char* text) const {
-    if (options_.message == nullptr || options_.message_size == 0) return;
-    const size_t count = std::min(options_.message_size - 1, std::strlen(text));
-    std::memcpy(options_.message, text, count);
-    options_.message[count] = '\0';
+    reeb_c::copy_text(text, options_.message, options_.message_size);
   }
 
   const reeb_options& options_;
@@ -217,15 +114,6 @@ reeb_result open_with(const reeb_options* options, reeb_decoder** out, const cha
   return report.failed(static_cast<reeb_result>(status.code()), status.message().c_str());
 }
 
-/// Calls `function` with the info at rest; no info before the sequence header is there.
-template <class Function>
-reeb_result with_info(reeb_decoder* d, Function&& function) {
-  if (d == nullptr) return REEB_INVALID_ARGUMENT;
-  const std::lock_guard lock(d->info_mutex);
-  const reeb::StreamInfo& info = d->decoder->info();
-  return info.format_version == 0 ? REEB_NEED_MORE_DATA : function(info);
-}
-
 reeb_info describe(const reeb::StreamInfo& info) {
   reeb_info out = {};
   out.format_version = info.format_version;
@@ -254,17 +142,6 @@ uint32_t end_of_shot(const reeb::StreamInfo& info, uint32_t shot) {
     if (g.first_frame >= first && g.first_frame < next) end = g.first_frame + g.frame_count;
   }
   return end;
-}
-
-bool make_target(const reeb_target* in, reeb::FrameTarget& out) {
-  reeb_target own = {};
-  if (!adopt(in, own)) return false;
-  out = {.positions = own.positions,
-         .stride = or_default<size_t>(own.position_stride, 3),
-         .normals = own.normals,
-         .normal_stride = or_default<size_t>(own.normal_stride, 3),
-         .vertex_capacity = own.vertex_capacity};
-  return true;
 }
 
 }  // namespace
@@ -483,10 +360,6 @@ void reeb_reset_stats(reeb_decoder* d) {
 size_t reeb_get_message(reeb_decoder* d, char* buffer, size_t size) {
   if (d == nullptr) return 0;
   const std::lock_guard lock(d->message_mutex);
-  if (buffer != nullptr && size > 0) {
-    const size_t count = std::min(size - 1, d->message.size());
-    std::memcpy(buffer, d->message.data(), count);
-    buffer[count] = '\0';
-  }
+  reeb_c::copy_text(d->message, buffer, size);
   return d->message.size();
 }

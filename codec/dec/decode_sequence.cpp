@@ -165,10 +165,12 @@ Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& k
                                    const Shot& shot, Attribute& attribute) {
   if (!attribute.animated) return {};
   if (kept->header.computed()) {
-    Status status;
-    for (uint32_t t = 0; t < shot.frame_count && status.ok(); ++t)
-      status = attributes_.append_normals(*kept, shot.frame(t), attribute.values);
-    return status;
+    for (uint32_t t = 0; t < shot.frame_count; ++t) {
+      SiteNumbers numbers;
+      if (Status s = attributes_.get_normals(kept, shot.frame(t), numbers); !s.ok()) return s;
+      append_numbers(numbers, attribute.values);
+    }
+    return {};
   }
   for (size_t g = run.begin; g < run.end; ++g) {
     if (!decoded_[g]) continue;
@@ -179,9 +181,11 @@ Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& k
       return Status::corrupt("attribute \"" + attribute.name + "\" is missing in frame " +
                              std::to_string(uint64_t{group.first_frame} + 1));
     for (uint32_t t = 0; t < group.frame_count; ++t) {
-      Status s = attributes_.append_frame(kept, *part, t, resolve_threads(options_.threads), {},
-                                          attribute.values);
+      SiteNumbers numbers;
+      Status s =
+          attributes_.get_frame(kept, *part, t, resolve_threads(options_.threads), {}, numbers);
       if (!s.ok()) return s;
+      append_numbers(numbers, attribute.values);
     }
   }
   return {};

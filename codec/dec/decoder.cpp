@@ -1,20 +1,13 @@
 #include "codec/dec/decoder.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
-#include "bitstream/container_parser.h"
-#include "codec/common/base/parallel.h"
 #include "codec/common/mesh/faces.h"
-#include "codec/dec/attributes/attribute_store.h"
-#include "codec/dec/group_store.h"
-#include "codec/dec/guard.h"
+#include "codec/dec/decoder_impl.h"
 #include "codec/dec/normals.h"
-#include "codec/dec/pushed_source.h"
 
 namespace reeb {
 
@@ -23,72 +16,16 @@ namespace {
 /// Frames that playing may skip from one call to the next.
 constexpr int64_t kLeap = 8;
 
-std::string frame_name(uint32_t frame) { return "frame " + std::to_string(uint64_t{frame} + 1); }
-
 }  // namespace
 
-struct Decoder::Impl {
-  Impl(std::unique_ptr<ByteSource> bytes, const DecodeOptions& o)
-      : options(o),
-        memory(o.resource()),
-        source(std::move(bytes)),
-        account(o.limits.max_memory),
-        store(*source, options, account),
-        attribute_store(*source, account, store) {}
-
-  const DecodeOptions options;
-  std::pmr::memory_resource* const memory;
-  std::unique_ptr<ByteSource> source;
-  PushedSource* pushed = nullptr;  ///< the source, where bytes are pushed
-  MemoryAccount account;
-  Lease pushed_lease;
-  ContainerReader container;
-  std::unique_ptr<ContainerParser> parser;  ///< of pushed bytes
-  bool complete = true;                     ///< no bytes will come
-  StreamInfo info;
-  GroupStore store;
-  AttributeStore attribute_store;
-
-  std::mutex turn;  ///< held by each call
-  std::atomic<uint32_t> cancels{0};
-  std::atomic<bool> loop{false};
-  int64_t last_frame = -1;
-  DecodeStats stats;
-  uint64_t decoded_before = 0, ahead_before = 0;  ///< groups, at the last reset
-
-  Status find_group(uint32_t frame, size_t& index) const;
-  Status make_request(size_t group, GroupRequest& request) const;
-  Status find_reference(size_t group, const ReferenceChunk*& reference) const;
-  Status reference_of(uint32_t frame, const ReferenceChunk*& reference) const;
-  Status faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces);
-  Status decode_normals(uint32_t frame, const KeptAttribute& kept, const StopToken& stop,
-                        Attribute& out);
-  Status describe_attributes(uint32_t frame, std::vector<Attribute>& out,
-                             std::vector<uint32_t>& indices);
-  Status decode_attribute(uint32_t frame, uint32_t index, const StopToken& stop, Attribute& out);
-  Status triangles_of(ShotFaces& faces);
-  /// The group of a frame that has at most `most_vertices`.
-  Status open_group(uint32_t frame, size_t most_vertices, const StopToken& stop,
-                    std::shared_ptr<const OpenGroup>& group);
-  Status positions(uint32_t frame, const StopToken& stop, const FrameTarget& target,
-                   std::shared_ptr<ShotFaces>& faces);
-  Status normals(ShotFaces& faces, const FrameTarget& target);
-  Status between(uint32_t frame, double share, const StopToken& stop, const FrameTarget& target);
-  Status blend(uint32_t frame, double share, const StopToken& stop, const FrameTarget& target,
-               uint32_t vertices);
-  void look_ahead(uint32_t frame);
-  Status parse_pushed(bool last);
-
-  /// Runs a call: one at a time, without exceptions.
-  template <class Call>
-  Status run(Call&& call) {
-    const StopToken stop(cancels);
-    return guarded([&] {
-      const std::lock_guard lock(turn);
-      return call(stop);
-    });
-  }
-};
+Status check_target(const FrameTarget& target, uint32_t vertices) {
+  const bool wrong = target.positions == nullptr || target.stride < 3 ||
+                     (target.normals != nullptr && target.normal_stride < 3);
+  if (wrong) return Status::invalid("the target has no positions, or a stride below 3");
+  if (vertices > target.vertex_capacity)
+    return Status::invalid("there are more vertices than there is room for");
+  return {};
+}
 
 Status Decoder::Impl::find_group(uint32_t frame, size_t& index) const {
   const auto& groups = container.groups;
@@ -146,59 +83,6 @@ Status Decoder::Impl::faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces
   const ReferenceChunk* reference = nullptr;
   if (Status s = reference_of(frame, reference); !s.ok()) return s;
   return store.get_faces(*reference, faces);
-}
-
-Status Decoder::Impl::decode_normals(uint32_t frame, const KeptAttribute& kept,
-                                     const StopToken& stop, Attribute& out) {
-  std::shared_ptr<ShotFaces> faces;
-  if (Status s = faces_of(frame, faces); !s.ok()) return s;
-  const size_t values = size_t{faces->connectivity.vertex_count} * 3;
-  Lease lease;
-  if (!lease.grow(account, values * sizeof(float)))
-    return Status::limit("the normals need more memory than the limit allows");
-  std::pmr::vector<float> xyz(values, memory);
-  if (Status s = positions(frame, stop, {.positions = xyz.data()}, faces); !s.ok()) return s;
-  return attribute_store.append_normals(kept, xyz, out.values);
-}
-
-Status Decoder::Impl::describe_attributes(uint32_t frame, std::vector<Attribute>& out,
-                                          std::vector<uint32_t>& indices) {
-  out.clear();
-  indices.clear();
-  const ReferenceChunk* reference = nullptr;
-  if (Status s = reference_of(frame, reference); !s.ok()) return s;
-  for (const AttributeChunk& a : container.attributes) {
-    if (a.header.shot != reference->header.shot) continue;
-    Attribute description;
-    Status status = attribute_store.describe(a, description);
-    if (status.code() == StatusCode::kCorrupt) continue;
-    if (!status.ok()) return status;
-    out.push_back(std::move(description));
-    indices.push_back(a.header.index);
-  }
-  return {};
-}
-
-Status Decoder::Impl::decode_attribute(uint32_t frame, uint32_t index, const StopToken& stop,
-                                       Attribute& out) {
-  const ReferenceChunk* reference = nullptr;
-  if (Status s = reference_of(frame, reference); !s.ok()) return s;
-  const AttributeChunk* chunk = container.attribute(reference->header.shot, index);
-  if (chunk == nullptr)
-    return Status::invalid("attribute " + std::to_string(index) + " is not there, or is damaged");
-  std::shared_ptr<const KeptAttribute> kept;
-  if (Status s = attribute_store.get(*chunk, *reference, kept); !s.ok()) return s;
-  out = kept->attribute;
-  if (!out.animated) return {};
-  if (kept->header.computed()) return decode_normals(frame, *kept, stop, out);
-  size_t group = 0;
-  if (Status s = find_group(frame, group); !s.ok()) return s;
-  const uint32_t first = container.groups[group].header.first_frame;
-  const AttributeGroupChunk* part = container.attribute_group(first, index);
-  if (part == nullptr)
-    return Status::corrupt("attribute \"" + out.name + "\" is missing in " + frame_name(frame));
-  return attribute_store.append_frame(kept, *part, frame - first, resolve_threads(options.threads),
-                                      stop, out.values);
 }
 
 Status Decoder::Impl::triangles_of(ShotFaces& faces) {
@@ -266,9 +150,7 @@ Status Decoder::Impl::blend(uint32_t frame, double share, const StopToken& stop,
 
 Status Decoder::Impl::between(uint32_t frame, double share, const StopToken& stop,
                               const FrameTarget& target) {
-  const bool wrong = target.positions == nullptr || target.stride < 3 ||
-                     (target.normals != nullptr && target.normal_stride < 3);
-  if (wrong) return Status::invalid("the target has no positions, or a stride below 3");
+  if (Status s = check_target(target, 0); !s.ok()) return s;
   const auto start = std::chrono::steady_clock::now();
   std::shared_ptr<ShotFaces> faces;
   if (Status s = positions(frame, stop, target, faces); !s.ok()) return s;
@@ -289,6 +171,12 @@ Status Decoder::Impl::between(uint32_t frame, double share, const StopToken& sto
     stats.longest_stall_frame = frame;
   }
   return {};
+}
+
+Status Decoder::Impl::check_time(double time) const {
+  const double last = static_cast<double>(info.frame_count) - 1;
+  if (time >= 0 && time <= last) return {};
+  return Status::invalid("the time is outside the sequence");
 }
 
 // Starts on the group that playing will meet next, if frames are asked for one after another.
@@ -432,29 +320,9 @@ Status Decoder::decode_frames(uint32_t first, uint32_t count, float* xyz, size_t
 
 Status Decoder::decode_at(double time, const FrameTarget& target) {
   return impl_->run([&](const StopToken& stop) -> Status {
-    const double last = static_cast<double>(impl_->info.frame_count) - 1;
-    if (!(time >= 0 && time <= last)) return Status::invalid("the time is outside the sequence");
+    if (Status s = impl_->check_time(time); !s.ok()) return s;
     const double whole = std::floor(time);
     return impl_->between(static_cast<uint32_t>(whole), time - whole, stop, target);
-  });
-}
-
-Status Decoder::attributes(uint32_t frame, std::vector<Attribute>& out,
-                           std::vector<uint32_t>& indices) {
-  return impl_->run(
-      [&](const StopToken&) { return impl_->describe_attributes(frame, out, indices); });
-}
-
-Status Decoder::decode_attribute(uint32_t frame, uint32_t index, Attribute& out) {
-  return impl_->run(
-      [&](const StopToken& stop) { return impl_->decode_attribute(frame, index, stop, out); });
-}
-
-Status Decoder::resource(uint32_t index, Resource& out) {
-  return impl_->run([&](const StopToken&) -> Status {
-    if (index >= impl_->container.resources.size())
-      return Status::invalid("there is no resource " + std::to_string(index));
-    return impl_->attribute_store.get_resource(impl_->container.resources[index], out);
   });
 }
 

@@ -9,6 +9,8 @@
 #include "bitstream/byte_source.h"
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
+#include "codec/dec/attributes/render_mesh.h"
+#include "codec/dec/attributes/site_numbers.h"
 #include "codec/dec/decode_options.h"
 #include "codec/dec/stream_info.h"
 
@@ -95,8 +97,27 @@ class Decoder {
   /// Attribute `index` with its values in `frame`. It is decoded once and kept.
   Status decode_attribute(uint32_t frame, uint32_t index, Attribute& out);
 
+  /// The same into the caller's memory, element after element; or, with a render mesh of the shot,
+  /// those of its vertices, for attributes of faces of its triangles.
+  Status decode_values(uint32_t frame, uint32_t index, const RenderMesh* mesh,
+                       const ValueTarget& target);
+  /// What value `entry` of an attribute is called.
+  Status attribute_name(uint32_t frame, uint32_t index, uint32_t entry, std::string& out);
+
+  /// A mesh for graphics interfaces of the shot that holds `frame`, split where any of the
+  /// attributes `split_by` differs around a vertex, its triangles sorted by the shot's first static
+  /// material. It lives as long as the decoder, at most.
+  Status make_render_mesh(uint32_t frame, std::span<const uint32_t> split_by,
+                          std::unique_ptr<const RenderMesh>& out);
+  /// A frame, or the pose at a time, at the vertices of a render mesh; normals are those of the
+  /// shot's vertices.
+  Status decode_frame(uint32_t frame, const RenderMesh& mesh, const FrameTarget& target);
+  Status decode_at(double time, const RenderMesh& mesh, const FrameTarget& target);
+
   /// Resource `index` of those in `info`.
   Status resource(uint32_t index, Resource& out);
+  /// As many of its bytes as `buffer` holds; `length`: how many there are.
+  Status copy_resource(uint32_t index, std::span<uint8_t> buffer, size_t& length);
 
   /// With prefetch: the frame after the last is the first one, and the other way round.
   void set_loop(bool loop);

@@ -1,5 +1,6 @@
-/* The header in plain C99: every function once. Returns the line of the first surprise, or 0. */
+/* The headers in plain C99: every function of reeb.h once, some of reeb_attributes.h. Returns the line of the first surprise, or 0. */
 #include <reeb.h>
+#include <reeb_attributes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,13 @@ static int use(reeb_decoder* decoder) {
   const uint32_t* indices = NULL;
   size_t triangles = 0;
   EXPECT(reeb_get_triangles(decoder, 0, &indices, &triangles) == REEB_OK && triangles == 96);
+  EXPECT(reeb_get_attribute_count(decoder, &count) == REEB_OK && count == 0);
+  reeb_render_mesh* mesh = NULL;
+  EXPECT(reeb_make_render_mesh(decoder, 0, NULL, 0, &mesh) == REEB_OK);
+  reeb_render_info parts = {.struct_size = sizeof parts};
+  EXPECT(reeb_get_render_info(mesh, &parts) == REEB_OK && parts.vertex_count == 48);
+  EXPECT(parts.material_attribute == -1 && parts.range_count == 1);
+  reeb_free_render_mesh(mesh);
   float xyz[48 * 3], normals[48 * 3];
   reeb_target target = {.struct_size = sizeof target};
   target.positions = xyz;

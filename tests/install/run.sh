@@ -46,9 +46,12 @@ alone() {  # alone STANDARD HEADER INCLUDE_FOLDER, by gcc and, where it is there
       -fsyntax-only -I"$3" - <<<"#include <$2>" || { echo "$2 does not compile alone as $1"; exit 1; }
   done
 }
-alone c99 reeb.h "$prefix/include"
-alone c++11 reeb.h "$prefix/include"
+for header in reeb.h reeb_attributes.h; do
+  alone c99 $header "$prefix/include"
+  alone c++11 $header "$prefix/include"
+done
 alone c++17 reeb.hpp "$prefix/include"
+alone c++17 reeb_attributes.hpp "$prefix/include"
 while read -r header; do
   alone c++20 "$header" "$prefix/include/reeb"
 done < <(cd "$prefix/include/reeb" && find . -name "*.h" -printf "%P\n")

@@ -131,7 +131,7 @@ std::vector<uint8_t> attribute_frame(const AttributeHeader& header, const Attrib
       store(header.type, frames.scales[k], coordinates[i * kPart + k % kPart],
             &numbers[i * bytes + k * size]);
   }
-  return spread_values(std::move(numbers), surface.of_element, bytes);
+  return numbers;
 }
 
 }  // namespace reeb

@@ -49,7 +49,7 @@ Status read_attribute_group(const AttributeHeader& header, const AttributeGroupC
 Status decode_attribute_group(const AttributeGroupParts& parts, const AttributeSurface& surface,
                               unsigned threads, const StopToken& stop, AttributeFrames& out);
 
-/// The numbers of all elements in frame t of the group.
+/// The numbers of all sites in frame t of the group.
 std::vector<uint8_t> attribute_frame(const AttributeHeader& header, const AttributeSurface& surface,
                                      const AttributeFrames& frames, uint32_t t);
 

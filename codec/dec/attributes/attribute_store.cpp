@@ -1,5 +1,6 @@
 #include "codec/dec/attributes/attribute_store.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "codec/dec/attributes/attribute_decoder.h"
@@ -57,18 +58,26 @@ Status AttributeStore::open_sites(const AttributeChunk& chunk, const ShotSurface
   return {};
 }
 
-Status AttributeStore::append_normals(const KeptAttribute& kept, std::span<const float> xyz,
-                                      std::vector<uint8_t>& values) {
-  constexpr uint64_t kPerSite = 3 * (2 * sizeof(float) + sizeof(double) + 2 * sizeof(float));
-  Lease lease;
-  if (Status s = grow((kept.sites.count + kept.surface.of_element.size()) * kPerSite, lease);
-      !s.ok())
-    return s;
-  const std::vector<float> normals = computed_normals(kept.sites, xyz);
-  std::vector<uint8_t> bytes(normals.size() * sizeof(float));
-  if (!bytes.empty()) std::memcpy(bytes.data(), normals.data(), bytes.size());
-  bytes = spread_values(std::move(bytes), kept.surface.of_element, 3 * sizeof(float));
-  values.insert(values.end(), bytes.begin(), bytes.end());
+void AttributeStore::get_static(const std::shared_ptr<const KeptAttribute>& kept,
+                                SiteNumbers& out) {
+  out.attribute = kept;
+  out.numbers = kept->attribute.values;
+  out.site_of = {};
+  out.bytes = kept->attribute.element_bytes();
+}
+
+Status AttributeStore::get_normals(const std::shared_ptr<const KeptAttribute>& kept,
+                                   std::span<const float> xyz, SiteNumbers& out) {
+  constexpr uint64_t kPerSite = 3 * (3 * sizeof(float) + sizeof(double));
+  out = {};
+  if (Status s = grow(kept->sites.count * kPerSite, out.lease); !s.ok()) return s;
+  const std::vector<float> normals = computed_normals(kept->sites, xyz);
+  out.bytes = 3 * sizeof(float);
+  out.own.resize(normals.size() * sizeof(float));
+  if (!out.own.empty()) std::memcpy(out.own.data(), normals.data(), out.own.size());
+  out.numbers = out.own;
+  out.attribute = kept;
+  out.site_of = kept->surface.of_element;
   return {};
 }
 
@@ -119,20 +128,38 @@ Status AttributeStore::decode_group(const std::shared_ptr<const KeptAttribute>& 
   return {};
 }
 
-Status AttributeStore::append_frame(const std::shared_ptr<const KeptAttribute>& kept,
-                                    const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
-                                    const StopToken& stop, std::vector<uint8_t>& values) {
-  KeptAttributeGroup& group = groups_kept_[chunk.header.index];
-  if (group.offset != chunk.offset) {
-    group = {};
-    KeptAttributeGroup decoded;
-    if (Status s = decode_group(kept, chunk, threads, stop, decoded); !s.ok()) return s;
+Status AttributeStore::get_frame(const std::shared_ptr<const KeptAttribute>& kept,
+                                 const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
+                                 const StopToken& stop, SiteNumbers& out) {
+  std::shared_ptr<const KeptAttributeGroup> group = groups_kept_[chunk.header.index];
+  if (group == nullptr || group->offset != chunk.offset) {
+    group.reset();
+    groups_kept_.erase(chunk.header.index);
+    auto decoded = std::make_shared<KeptAttributeGroup>();
+    if (Status s = decode_group(kept, chunk, threads, stop, *decoded); !s.ok()) return s;
+    group = decoded;
     groups_kept_[chunk.header.index] = std::move(decoded);
   }
-  const KeptAttributeGroup& there = groups_kept_[chunk.header.index];
-  const std::vector<uint8_t> frame =
-      attribute_frame(there.attribute->header, there.attribute->surface, there.frames, t);
-  values.insert(values.end(), frame.begin(), frame.end());
+  const KeptAttribute& attribute = *group->attribute;
+  out = {};
+  out.bytes = attribute.attribute.element_bytes();
+  const uint64_t sites = attribute.surface.surface.output.size();
+  if (Status s = grow(sites * (out.bytes + 3 * sizeof(float)), out.lease); !s.ok()) return s;
+  out.own = attribute_frame(attribute.header, attribute.surface, group->frames, t);
+  out.numbers = out.own;
+  out.attribute = group->attribute;
+  out.site_of = attribute.surface.of_element;
+  return {};
+}
+
+Status AttributeStore::copy_resource(const ResourceChunk& wanted, std::span<uint8_t> buffer,
+                                     size_t& length) {
+  ResourceChunk chunk;
+  std::vector<uint8_t> loaded;
+  Lease lease;
+  if (Status s = load(wanted, loaded, chunk, lease); !s.ok()) return s;
+  length = chunk.bytes.size();
+  std::copy_n(chunk.bytes.begin(), std::min(length, buffer.size()), buffer.begin());
   return {};
 }
 

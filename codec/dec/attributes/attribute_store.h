@@ -10,6 +10,7 @@
 #include "bitstream/container.h"
 #include "codec/common/base/attributes.h"
 #include "codec/dec/attributes/animated_decoder.h"
+#include "codec/dec/attributes/site_numbers.h"
 #include "codec/dec/group_store.h"
 #include "codec/dec/memory_account.h"
 
@@ -43,16 +44,20 @@ class AttributeStore {
   /// Values of a static attribute, sites of an animated one; `reference`: of its shot.
   Status get(const AttributeChunk& chunk, const ReferenceChunk& reference,
              std::shared_ptr<const KeptAttribute>& out);
-  /// Values of an animated attribute, `kept`, in frame t of a group, appended to `values`.
-  Status append_frame(const std::shared_ptr<const KeptAttribute>& kept,
-                      const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
-                      const StopToken& stop, std::vector<uint8_t>& values);
-  /// Computed normals for positions of the vertices, appended to `values`.
-  Status append_normals(const KeptAttribute& kept, std::span<const float> xyz,
-                        std::vector<uint8_t>& values);
+  /// The numbers of a static attribute.
+  static void get_static(const std::shared_ptr<const KeptAttribute>& kept, SiteNumbers& out);
+  /// The numbers of an animated attribute in frame t of a group.
+  Status get_frame(const std::shared_ptr<const KeptAttribute>& kept,
+                   const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
+                   const StopToken& stop, SiteNumbers& out);
+  /// Computed normals for positions of the vertices.
+  Status get_normals(const std::shared_ptr<const KeptAttribute>& kept, std::span<const float> xyz,
+                     SiteNumbers& out);
   /// What an attribute is, without values.
   Status describe(const AttributeChunk& chunk, Attribute& out);
   Status get_resource(const ResourceChunk& chunk, Resource& out);
+  /// As many of its bytes as `buffer` holds; `length`: how many there are.
+  Status copy_resource(const ResourceChunk& chunk, std::span<uint8_t> buffer, size_t& length);
 
  private:
   template <class AnyChunk>
@@ -67,7 +72,8 @@ class AttributeStore {
   MemoryAccount& account_;
   GroupStore& groups_;
   std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<KeptAttribute>> kept_;
-  std::map<uint32_t, KeptAttributeGroup> groups_kept_;  ///< by index, the one used last
+  /// By index, the one used last.
+  std::map<uint32_t, std::shared_ptr<const KeptAttributeGroup>> groups_kept_;
 };
 
 }  // namespace reeb

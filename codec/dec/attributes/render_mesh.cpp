@@ -8,25 +8,22 @@ namespace reeb {
 
 namespace {
 
-/// Compares the values of two corners, attribute after attribute.
-int compare_values(std::span<const Attribute* const> attributes, uint32_t a, uint32_t b) {
-  for (const Attribute* attribute : attributes) {
-    const size_t bytes = attribute->element_bytes();
-    const uint8_t* values = attribute->values.data();
-    const int order = std::memcmp(values + a * bytes, values + b * bytes, bytes);
+/// Compares what two corners have, key after key.
+int compare_keys(std::span<const CornerKeys> split_by, uint32_t a, uint32_t b) {
+  for (const auto& [keys, bytes] : split_by) {
+    const int order = std::memcmp(keys + a * bytes, keys + b * bytes, bytes);
     if (order != 0) return order;
   }
   return 0;
 }
 
-/// Of every corner, the lowest one with its vertex and values.
-std::vector<uint32_t> lowest_alike(const Connectivity& c,
-                                   std::span<const Attribute* const> split_by) {
+/// Of every corner, the lowest one with its vertex and keys.
+std::vector<uint32_t> lowest_alike(const Connectivity& c, std::span<const CornerKeys> split_by) {
   std::vector<uint32_t> order(c.corners.size()), lowest(c.corners.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto compare = [&](uint32_t a, uint32_t b) {
     if (c.corners[a] != c.corners[b]) return c.corners[a] < c.corners[b] ? -1 : 1;
-    return compare_values(split_by, a, b);
+    return compare_keys(split_by, a, b);
   };
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     const int before = compare(a, b);
@@ -57,9 +54,10 @@ std::vector<uint32_t> by_material(const Connectivity& c, const Attribute* materi
 
 }  // namespace
 
-RenderMesh make_render_mesh(const Connectivity& c, std::span<const Attribute* const> split_by,
+RenderMesh make_render_mesh(const Connectivity& c, std::span<const CornerKeys> split_by,
                             const Attribute* material) {
   RenderMesh out;
+  out.shot_vertices = c.vertex_count;
   const std::vector<uint32_t> lowest = lowest_alike(c, split_by);
   std::vector<uint32_t> vertex(c.corners.size());  // render vertex of each corner
   for (uint32_t i = 0; i < lowest.size(); ++i) {
@@ -90,6 +88,12 @@ uint64_t render_mesh_memory(const Connectivity& c) {
   constexpr uint64_t kPerCorner = 3 * 4 + 2 * (4 + 4) + 2 * (3 * 4 + 4);  // lists grow by doubling
   constexpr uint64_t kPerFace = 2 * 4 + 2 * sizeof(RenderMesh::Range);
   return c.corners.size() * kPerCorner + c.face_sizes.size() * kPerFace;
+}
+
+uint64_t kept_memory(const RenderMesh& m) {
+  const uint64_t numbers = m.source_vertex.capacity() + m.source_corner.capacity() +
+                           m.triangles.capacity() + m.source_face.capacity();
+  return numbers * sizeof(uint32_t) + m.ranges.capacity() * sizeof(RenderMesh::Range);
 }
 
 }  // namespace reeb

@@ -21,7 +21,7 @@ TEST_CASE("render vertices are combinations of vertex and corner values", "[attr
                                                  1, 0, 2, 0, 2, 1, 1, 9, 0, 0, 0, 0});
   const Attribute material =
       make("usemtl", Domain::kFace, ValueType::kU16, 1, std::vector<uint16_t>{5, 2, 9});
-  const Attribute* split[] = {&uv};
+  const CornerKeys split[] = {{uv.values.data(), uv.element_bytes()}};
   const RenderMesh mesh = make_render_mesh(c, split, &material);
   CHECK(mesh.source_vertex == std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 2, 6});
   CHECK(mesh.source_corner == std::vector<uint32_t>{0, 1, 2, 3, 5, 6, 7, 8});
