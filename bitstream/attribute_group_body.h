@@ -17,7 +17,7 @@ struct ChannelScale {
 
 template <class V>
 void describe(V& v, ChannelScale& h) {
-  v.f64("scale", h.scale, std::numeric_limits<double>::min(), ChannelHeader::kLargest);
+  v.f64("scale", h.scale, std::numeric_limits<double>::min(), ChannelHeader::kMaxNumber);
 }
 
 /// Three channels in a row, coded as positions are.

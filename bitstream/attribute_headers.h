@@ -53,7 +53,7 @@ void describe(V& v, AttributeHeader& h) {
 
 /// The numbers that a channel's integers stand for.
 struct ChannelHeader {
-  static constexpr double kLargest = std::numeric_limits<float>::max();
+  static constexpr double kMaxNumber = std::numeric_limits<float>::max();
   /// n stands for (low + n) * step; else, the bits of a binary32 in order.
   enum class Numbers : uint8_t { kMultiples = 0, kBinary32 = 1 };
   Numbers numbers = Numbers::kMultiples;
@@ -76,7 +76,7 @@ template <class V>
 void describe(V& v, ChannelHeader& h) {
   v.u8("numbers", h.numbers, 0, 1);
   v.uv("low_folded", h.low_folded, 0, uint64_t{1} << 41);
-  v.f64("step", h.step, std::numeric_limits<double>::min(), ChannelHeader::kLargest);
+  v.f64("step", h.step, std::numeric_limits<double>::min(), ChannelHeader::kMaxNumber);
   v.uv("top", h.top, 0, kMaxUint32);
 }
 
@@ -147,13 +147,13 @@ inline constexpr size_t kBoxBytes = 24;
 
 template <class V>
 void describe(V& v, Box& h) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  v.f32("low_x", h.low[0], -kMost, kMost);
-  v.f32("low_y", h.low[1], -kMost, kMost);
-  v.f32("low_z", h.low[2], -kMost, kMost);
-  v.f32("high_x", h.high[0], -kMost, kMost);
-  v.f32("high_y", h.high[1], -kMost, kMost);
-  v.f32("high_z", h.high[2], -kMost, kMost);
+  constexpr double kMaxFloat = std::numeric_limits<float>::max();
+  v.f32("low_x", h.low[0], -kMaxFloat, kMaxFloat);
+  v.f32("low_y", h.low[1], -kMaxFloat, kMaxFloat);
+  v.f32("low_z", h.low[2], -kMaxFloat, kMaxFloat);
+  v.f32("high_x", h.high[0], -kMaxFloat, kMaxFloat);
+  v.f32("high_y", h.high[1], -kMaxFloat, kMaxFloat);
+  v.f32("high_z", h.high[2], -kMaxFloat, kMaxFloat);
 }
 
 /// Chunk `bnds`: a box for each group, in order of frames.

@@ -5,7 +5,7 @@
 namespace reeb::retrieval {
 namespace {
 
-constexpr uint32_t kNone = 0xffffffffu;
+constexpr uint32_t kFree = 0xffffffffu;
 
 // Augmenting paths of least reduced cost, one row after another; there are no more rows than
 // columns.
@@ -13,14 +13,14 @@ std::vector<uint32_t> assign_rows(const Eigen::MatrixXd& cost) {
   const auto rows = static_cast<uint32_t>(cost.rows()),
              columns = static_cast<uint32_t>(cost.cols());
   std::vector<double> row_price(rows, 0.0), column_price(columns + 1, 0.0);
-  std::vector<uint32_t> row_of(columns + 1, kNone), previous(columns + 1);
+  std::vector<uint32_t> row_of(columns + 1, kFree), previous(columns + 1);
   const uint32_t start = columns;  // stands for the column of the row that has none yet
   for (uint32_t row = 0; row < rows; ++row) {
     row_of[start] = row;
     std::vector<double> slack(columns + 1, std::numeric_limits<double>::infinity());
     std::vector<bool> visited(columns + 1, false);
     uint32_t at = start;
-    while (row_of[at] != kNone) {
+    while (row_of[at] != kFree) {
       visited[at] = true;
       const uint32_t i = row_of[at];
       uint32_t next = start;
@@ -49,9 +49,9 @@ std::vector<uint32_t> assign_rows(const Eigen::MatrixXd& cost) {
     }
     for (; at != start; at = previous[at]) row_of[at] = row_of[previous[at]];
   }
-  std::vector<uint32_t> match(rows, kNone);
+  std::vector<uint32_t> match(rows, kFree);
   for (uint32_t j = 0; j < columns; ++j) {
-    if (row_of[j] != kNone) match[row_of[j]] = j;
+    if (row_of[j] != kFree) match[row_of[j]] = j;
   }
   return match;
 }
@@ -61,7 +61,7 @@ std::vector<uint32_t> assign_rows(const Eigen::MatrixXd& cost) {
 std::vector<uint32_t> best_assignment(const Eigen::MatrixXd& cost) {
   if (cost.rows() <= cost.cols()) return assign_rows(cost);
   const std::vector<uint32_t> of_columns = assign_rows(cost.transpose());
-  std::vector<uint32_t> match(static_cast<size_t>(cost.rows()), kNone);
+  std::vector<uint32_t> match(static_cast<size_t>(cost.rows()), kFree);
   for (uint32_t j = 0; j < of_columns.size(); ++j) match[of_columns[j]] = j;
   return match;
 }

@@ -28,8 +28,8 @@ std::vector<double> filtered_quantiles(std::span<const PieceSpectrum> pieces, do
       for (Eigen::Index v = 0; v < sum.size(); ++v)
         values.emplace_back(std::log(std::max(sum[v] * area, kMinSignature)), piece.mass[v]);
     }
-    const std::vector<double> levels = quantiles(std::move(values), kLevels);
-    all.insert(all.end(), levels.begin(), levels.end());
+    const std::vector<double> found = quantiles(std::move(values), kQuantiles);
+    all.insert(all.end(), found.begin(), found.end());
   }
   return all;
 }
@@ -50,16 +50,16 @@ std::vector<double> quantiles(Weighted values, int count) {
   std::sort(values.begin(), values.end());
   double total = 0;
   for (const auto& [value, weight] : values) total += weight;
-  std::vector<double> levels(count, 0.0);
+  std::vector<double> found(count, 0.0);
   size_t at = 0;
   double before = 0;
   for (int i = 0; i < count && !values.empty(); ++i) {
     const double wanted = total * (i + 0.5) / count;
     while (at + 1 < values.size() && before + values[at].second < wanted)
       before += values[at++].second;
-    levels[i] = values[at].first;
+    found[i] = values[at].first;
   }
-  return levels;
+  return found;
 }
 
 std::vector<double> heat_quantiles(std::span<const PieceSpectrum> pieces, double area) {

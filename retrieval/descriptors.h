@@ -22,8 +22,8 @@ struct PieceSpectrum {
   Eigen::VectorXd mass;  ///< area per vertex
 };
 
-inline constexpr int kScales = 12;  ///< times, or energies
-inline constexpr int kLevels = 8;   ///< quantiles of each
+inline constexpr int kScales = 12;    ///< times, or energies
+inline constexpr int kQuantiles = 8;  ///< quantiles of each
 
 /// Quantiles over a surface, made of pieces of `area` in all, of the logarithm of
 /// - the heat kernel signature (J. Sun, M. Ovsjanikov, L. Guibas, "A concise and provably
@@ -31,7 +31,7 @@ inline constexpr int kLevels = 8;   ///< quantiles of each
 ///   multi-scale signature based on heat diffusion", 2009), times the area, at kScales times;
 /// - the wave kernel signature (M. Aubry, U. Schlickewei, D. Cremers, "The wave kernel signature",
 ///   2011), times the area, at kScales energies.
-/// [scale][level].
+/// [scale][quantile].
 std::vector<double> heat_quantiles(std::span<const PieceSpectrum> pieces, double area);
 std::vector<double> wave_quantiles(std::span<const PieceSpectrum> pieces, double area);
 

@@ -15,7 +15,7 @@
 namespace reeb::retrieval {
 namespace {
 
-static_assert(kProfileLength == kRings && kSpectralValues == kScales * kLevels);
+static_assert(kProfileLength == kRings && kSpectralValues == kScales * kQuantiles);
 
 constexpr uint32_t kEigenpairs = 60;
 constexpr double kSmoothing = 0.0002;  // time over the area

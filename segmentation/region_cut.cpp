@@ -10,7 +10,7 @@
 namespace reeb::segmentation {
 namespace {
 
-constexpr int kLevels = 24;  // iso-contours looked at within the window
+constexpr int kContours = 24;  // looked at within the window
 constexpr double kMaxExponent =
     2;  // bounds the pull of a crease whose radius is far below the contour's
 constexpr double kMaxArcPart = 0.5;  // of an arc that a border may give away
@@ -98,30 +98,30 @@ class Cutter {
   // How far from the value `near` into the arc the contour of least concavity function lies.
   double best_depth(uint32_t arc, double near, double direction, double window) const {
     if (window <= 0) return 0;
-    std::array<ContourSums, kLevels> contours;
+    std::array<ContourSums, kContours> contours;
     for (const Triple& t : surface_.triangles) {
       if (std::any_of(t.begin(), t.end(), [&](uint32_t v) { return labels_[v] != arc; })) continue;
-      std::array<double, 3> depth;  // in levels
-      for (int i = 0; i < 3; ++i) depth[i] = direction * (f_[t[i]] - near) / window * kLevels;
+      std::array<double, 3> depth;  // in contours
+      for (int i = 0; i < 3; ++i) depth[i] = direction * (f_[t[i]] - near) / window * kContours;
       const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
       const int first = std::max(0, static_cast<int>(std::floor(std::max(*low, -1.0))) + 1);
-      for (int k = first; k < kLevels && k < *high; ++k) add_segment(t, depth, k, contours[k]);
+      for (int k = first; k < kContours && k < *high; ++k) add_segment(t, depth, k, contours[k]);
     }
     const auto least = std::min_element(
         contours.begin(), contours.end(),
         [](const ContourSums& a, const ContourSums& b) { return a.concavity() < b.concavity(); });
-    return window * static_cast<double>(least - contours.begin()) / kLevels;
+    return window * static_cast<double>(least - contours.begin()) / kContours;
   }
 
-  void add_segment(const Triple& t, const std::array<double, 3>& depth, int level,
+  void add_segment(const Triple& t, const std::array<double, 3>& depth, int contour,
                    ContourSums& sums) const {
     std::array<Point, 2> end;
     double curvature = 0;
     int found = 0;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      if ((depth[i] < level) == (depth[j] < level) || found == 2) continue;
-      const double share = (level - depth[i]) / (depth[j] - depth[i]);
+      if ((depth[i] < contour) == (depth[j] < contour) || found == 2) continue;
+      const double share = (contour - depth[i]) / (depth[j] - depth[i]);
       end[found++] = (1 - share) * surface_.points[t[i]] + share * surface_.points[t[j]];
       curvature += 0.5 * ((1 - share) * curvature_[t[i]] + share * curvature_[t[j]]);
     }

@@ -79,7 +79,7 @@ uint64_t kept_memory(const DecodedSurface& s) {
   const PredictionGraph& graph = s.surface.graph;
   return sizeof(DecodedSurface) + bytes_of(s.surface.grid) + LaneStart::bytes(graph.size()) +
          bytes_of(s.output) + bytes_of(s.surface.order) + bytes_of(graph.rows) +
-         bytes_of(graph.step_level);
+         bytes_of(graph.step_index);
 }
 
 uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {

@@ -23,7 +23,7 @@ namespace reeb {
 
 namespace {
 
-constexpr float kLargestPosition = 1e36f;  ///< leaves room for sums and differences in binary32
+constexpr float kMaxPosition = 1e36f;  ///< leaves room for sums and differences in binary32
 
 Status check_shot(const Shot& shot, bool lossless, size_t index) {
   const std::string name = "shot " + std::to_string(index + 1);
@@ -34,7 +34,7 @@ Status check_shot(const Shot& shot, bool lossless, size_t index) {
   }
   for (const float x : shot.positions) {
     if (!std::isfinite(x)) return Status::invalid(name + " has a position that is not finite");
-    if (!lossless && std::abs(x) > kLargestPosition) {
+    if (!lossless && std::abs(x) > kMaxPosition) {
       return Status::invalid(name + " has a position beyond 1e36; scale the input down");
     }
   }
@@ -72,7 +72,7 @@ Status try_snapped(const Sequence& sequence, const EncodeOptions& options,
                    std::vector<uint8_t>& out, EncodeStats& stats) {
   constexpr double kMinRate = 1.5;  // bits per vertex and frame: below, snapping does not pay
   const double step = 2 * options.target_value;
-  if (stats.bpvf < kMinRate || !(step < static_cast<double>(kLargestPosition))) return {};
+  if (stats.bpvf < kMinRate || !(step < static_cast<double>(kMaxPosition))) return {};
   std::vector<uint8_t> other;
   EncodeStats other_stats;
   if (Status s = encode_snapped(sequence, options, other, other_stats); !s.ok()) return s;

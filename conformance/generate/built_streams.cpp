@@ -11,7 +11,7 @@ namespace {
 using namespace reeb::test;
 
 constexpr float kMinStep = std::numeric_limits<float>::denorm_min();
-constexpr int32_t kLargestEntry = std::numeric_limits<int32_t>::max() - 1;
+constexpr int32_t kMaxEntry = std::numeric_limits<int32_t>::max() - 1;
 
 class Maker {
  public:
@@ -172,8 +172,7 @@ void add_motion(Maker& m) {
   g.transform = [](uint32_t k, uint32_t b) {
     const auto x = static_cast<int32_t>(b * 40503u + k);
     if (k == 1) return MotionModel::Transform{};
-    if (b % 512 == 7)
-      return MotionModel::Transform{kLargestEntry, -kLargestEntry, 1 << 20, kLargestEntry};
+    if (b % 512 == 7) return MotionModel::Transform{kMaxEntry, -kMaxEntry, 1 << 20, kMaxEntry};
     return MotionModel::Transform{x % 5, x % 3, -(x % 7), x % 100};
   };
   m.add("motion_extremes",
@@ -185,7 +184,7 @@ void add_motion(Maker& m) {
   t.header.region_count = 2;
   t.binding = [](uint32_t row) { return RegionBinding{row % 2, 0, row % 3 == 0 ? 8u : 0u}; };
   t.transform = [](uint32_t k, uint32_t b) {
-    const int32_t x = (k / 3 + b) % 2 != 0 ? kLargestEntry / 2 : -kLargestEntry / 2;
+    const int32_t x = (k / 3 + b) % 2 != 0 ? kMaxEntry / 2 : -kMaxEntry / 2;
     return MotionModel::Transform{x, -x, x, x};
   };
   m.add("thesis_wrap", "Transforms of the thesis profile whose differences are large.",

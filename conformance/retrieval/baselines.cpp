@@ -17,10 +17,10 @@ using segmentation::Surface;
 constexpr uint32_t kEigenpairs = 60;
 constexpr size_t kShapeDna = 20;
 constexpr int kTimes = 10, kBins = 64;
-constexpr double kFirstTime = 0.1, kLastTime = 5;     // over the first eigenvalue
-constexpr double kLowestHeat = -2, kHighestHeat = 5;  // logarithm of the signature times the area
+constexpr double kFirstTime = 0.1, kLastTime = 5;  // over the first eigenvalue
+constexpr double kMinHeat = -2, kMaxHeat = 5;      // logarithm of the signature times the area
 constexpr int kPairs = 40000;
-constexpr double kLongest = 2;  // of distances over the root of the area
+constexpr double kMaxDistance = 2;  // of distances over the root of the area
 constexpr double kMinPiece = 0.02;
 
 struct Piece {
@@ -68,8 +68,8 @@ std::vector<double> heat_histogram(const std::vector<Piece>& pieces, double area
       const Eigen::VectorXd heat = piece.pairs.vectors.array().square().matrix() *
                                    (-t * piece.pairs.values).array().exp().matrix();
       for (Eigen::Index v = 0; v < heat.size(); ++v) {
-        const double part = (std::log(std::max(heat[v] * area, 1e-30)) - kLowestHeat) /
-                            (kHighestHeat - kLowestHeat);
+        const double part =
+            (std::log(std::max(heat[v] * area, 1e-30)) - kMinHeat) / (kMaxHeat - kMinHeat);
         add_to_bin(histogram, size_t{kBins} * k, part, piece.mass[v] / mass);
       }
     }
@@ -112,7 +112,8 @@ std::vector<double> d2_histogram(const segmentation::Pieces& pieces, double area
   std::vector<double> histogram(kBins, 0.0);
   PointPicker picker(pieces);
   for (int i = 0; i < kPairs; ++i)
-    add_to_bin(histogram, 0, (picker.pick() - picker.pick()).norm() / std::sqrt(area) / kLongest,
+    add_to_bin(histogram, 0,
+               (picker.pick() - picker.pick()).norm() / std::sqrt(area) / kMaxDistance,
                1.0 / kPairs);
   return histogram;
 }

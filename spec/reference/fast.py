@@ -6,7 +6,7 @@ from .arithmetic import f32, floor_log2, product32, sum32
 from .connectivity import NONE, after, before, coding_order, edges_from
 from .errors import require
 from .lanes import LaneSection
-from .surface import STEPS, Distances, Row, make_row, set_step_levels
+from .surface import STEPS, Distances, Row, make_row, set_step_indices
 
 LIST = 16
 AROUND = 12
@@ -27,7 +27,7 @@ class Contraction:
         self.alive = [v for v in range(vertex_count) if self.N[v]]
         self.removed = []  # (vertex, ring, far)
         while len(self.alive) > 64:
-            removed = self.level()
+            removed = self.sweep()
             if removed < max(1, len(self.alive) // 200):
                 break
 
@@ -39,7 +39,7 @@ class Contraction:
         else:
             self.full[v] = True
 
-    def level(self):
+    def sweep(self):
         locked = set()
         gone = set()
         for v in self.alive:
@@ -409,14 +409,14 @@ def build_fast_graph(grid, order):
     for v, neighbours, ring in zip(order.order, order.neighbours, order.ring):
         vertices = [order.order[k] for k in neighbours]
         rows.append(make_row(v, vertices[:ring], vertices[ring:], rank, distances))
-    set_step_levels(rows)
+    set_step_indices(rows)
     return rows, order.order
 
 
 def decode_coefficients(data, rows, components, positions, wary):
     learners = [LaneWeights(rows, r, positions) for r in range(len(rows))]
     weights = [learner.solve() for learner in learners]
-    steps = [STEPS[row.step_level] for row in rows]
+    steps = [STEPS[row.step_index] for row in rows]
     return LaneField(data, rows, components, weights, steps, learners, wary).planes
 
 

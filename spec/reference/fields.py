@@ -162,7 +162,7 @@ class Field:
         plane = [0.0] * count
         energy = 0.0
         for r, row in enumerate(self.rows):
-            step = STEPS[row.step_level] if self.options.predict else 65536
+            step = STEPS[row.step_index] if self.options.predict else 65536
             n = self.residuals.decode(self.surroundings(r, step))
             correction = product32(f32(n), f32(step / 65536))
             plane[r] = sum32(self.prediction(r, plane), correction)

@@ -387,11 +387,11 @@ class LengthContexts:
             return clamp((s - expected + 34) // 4 if s - expected + 34 >= 0 else 0, 0, 15)
 
         phase = expected % 8
-        level = min(7, floor_log2(max(1, len(group.graph) // (r + 1))))
+        coarseness = min(7, floor_log2(max(1, len(group.graph) // (r + 1))))
         self.tables = (
             (relative(before) * 16 + relative(ring)) * 8 + phase,
             (relative(axis_before) * 16 + relative(before)) * 8 + phase,
-            (level * 8 + phase) * 3 + a,
+            (coarseness * 8 + phase) * 3 + a,
             min(expected, 255),
             (relative(ring) * 16 + relative(axis_before)) * 8 + phase,
             relative(older) * 16 + relative(nearest),

@@ -7,12 +7,12 @@ from .arithmetic import clamp, f32, log2_5
 class Row:
     """What a graph has of a row."""
 
-    def __init__(self, neighbours, ring, prior, precision, step_level=0):
+    def __init__(self, neighbours, ring, prior, precision, step_index=0):
         self.neighbours = neighbours
         self.ring = ring
         self.prior = prior
         self.precision = precision
-        self.step_level = step_level
+        self.step_index = step_index
 
 
 class Distances:
@@ -52,11 +52,11 @@ class Collapser:
 
     def run(self):
         while len(self.alive) > 64:
-            removed = self.level()
+            removed = self.sweep()
             if removed < max(1, len(self.alive) // 200):
                 break
 
-    def level(self):
+    def sweep(self):
         N = self.N
         locked = set()
         gone = set()
@@ -175,7 +175,7 @@ def make_row(v, ring, far, rank, distances):
     return Row([rank[u] for u in neighbours], ring, prior, precision)
 
 
-def set_step_levels(rows):
+def set_step_indices(rows):
     """Section 3."""
     mass = [256] * len(rows)
     for r in range(len(rows) - 1, -1, -1):
@@ -183,7 +183,7 @@ def set_step_levels(rows):
         for i in range(row.ring):
             mass[row.neighbours[i]] += (mass[r] * int(65536 * row.prior[i])) >> 16
     for r, row in enumerate(rows):
-        row.step_level = min((log2_5(mass[r]) - 256) // 4, 191)
+        row.step_index = min((log2_5(mass[r]) - 256) // 4, 191)
 
 
 def make_steps():
@@ -215,5 +215,5 @@ def build_surface_graph(grid, triangles):
         near, beyond = ring.get(v, []), far.get(v, [])
         complete_neighbours(v, near, beyond, order[:r], distances, v in boundary)
         rows.append(make_row(v, near, beyond, rank, distances))
-    set_step_levels(rows)
+    set_step_indices(rows)
     return rows, order

@@ -40,8 +40,9 @@ TEST_CASE("Exp-Golomb survives around every power of two", "[integer_coder]") {
 }
 
 TEST_CASE("signed integers survive at both extremes", "[integer_coder]") {
-  constexpr int32_t kLargest = 0x7FFFFFFE;
-  std::vector<int32_t> values{0, 1, -1, kLargest, -kLargest, 0, 0x40000000, -0x40000000, -1, 1, 0};
+  constexpr int32_t kMaxValue = 0x7FFFFFFE;
+  std::vector<int32_t> values{0,          1,           -1, kMaxValue, -kMaxValue, 0,
+                              0x40000000, -0x40000000, -1, 1,         0};
   CHECK(round_trip<SignedModel>(values) == values);
 }
 

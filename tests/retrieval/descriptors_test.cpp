@@ -33,19 +33,19 @@ TEST_CASE("Heat and wave signatures of a sphere are those of spherical harmonics
   const double area = total_area(sphere);
   const auto heat = heat_quantiles(pieces, area);
   const auto wave = wave_quantiles(pieces, area);
-  REQUIRE(heat.size() == size_t{kScales * kLevels});
+  REQUIRE(heat.size() == size_t{kScales * kQuantiles});
   // Eigenvalue l (l + 1), 2 l + 1 times, of area 4 pi; the square sum of each is constant.
   for (int s = 5; s < kScales; ++s) {  // earlier ones need more than 60 eigenvectors
     double expected = 0;
     for (int l = 0; l < 20; ++l)
       expected += (2 * l + 1) *
                   std::exp(-l * (l + 1) * 4 * std::numbers::pi * 0.0006 * std::pow(1.7783, s));
-    for (int q = 0; q < kLevels; ++q)
-      CHECK(heat[s * kLevels + q] == Approx(std::log(expected)).margin(0.02));
+    for (int q = 0; q < kQuantiles; ++q)
+      CHECK(heat[s * kQuantiles + q] == Approx(std::log(expected)).margin(0.02));
   }
   // Whatever the energy, a mean of phi^2 area, which is 1 here where whole multiplets take part.
   for (int s = 0; s < kScales - 3; ++s) {
-    for (int q = 0; q < kLevels; ++q) CHECK(wave[s * kLevels + q] == Approx(0).margin(0.05));
+    for (int q = 0; q < kQuantiles; ++q) CHECK(wave[s * kQuantiles + q] == Approx(0).margin(0.05));
   }
 }
 

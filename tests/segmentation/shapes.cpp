@@ -112,11 +112,11 @@ void Mesh::append(const Mesh& other) {
   for (const uint32_t v : other.triangles) triangles.push_back(first + v);
 }
 
-Mesh ellipsoid(int levels, double x, double y, double z) {
+Mesh ellipsoid(int times, double x, double y, double z) {
   std::vector<Point> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   Mesh mesh;
   mesh.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
-  for (int level = 0; level < levels; ++level) {
+  for (int time = 0; time < times; ++time) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
       const auto [at, fresh] =

@@ -19,8 +19,8 @@ struct Mesh {
   void append(const Mesh& other);
 };
 
-/// Octahedron subdivided `levels` times onto the unit sphere, stretched by the factors.
-Mesh ellipsoid(int levels, double x, double y, double z);
+/// Octahedron subdivided `times` times onto the unit sphere, stretched by the factors.
+Mesh ellipsoid(int times, double x, double y, double z);
 
 /// Torus around the z axis; `around` x `across` vertices.
 Mesh torus(int around, int across, double ring_radius, double tube_radius);

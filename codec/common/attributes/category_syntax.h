@@ -27,7 +27,7 @@ class RecentValues {
     const auto at = std::find(values_.begin(), values_.end(), value);
     if (at != values_.end()) {
       std::rotate(values_.begin(), at, at + 1);
-    } else if (values_.size() == kMost) {
+    } else if (values_.size() == kMaxValues) {
       std::rotate(values_.begin(), values_.end() - 1, values_.end());
       values_[0] = value;
     } else {
@@ -36,7 +36,7 @@ class RecentValues {
   }
 
  private:
-  static constexpr size_t kMost = 256;
+  static constexpr size_t kMaxValues = 256;
   std::vector<uint32_t> values_;
 };
 

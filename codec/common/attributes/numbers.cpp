@@ -32,7 +32,7 @@ Status check_channel(ValueType type, const ChannelHeader& c) {
   const double largest =
       std::max(std::abs(static_cast<double>(c.low())), std::abs(static_cast<double>(high)));
   if (type == ValueType::kBinary32)
-    return largest * c.step <= ChannelHeader::kLargest ? Status() : wrong();
+    return largest * c.step <= ChannelHeader::kMaxNumber ? Status() : wrong();
   constexpr double kMaxStep = 1 << 16;
   return c.step >= 1 && c.step <= kMaxStep && c.step == std::floor(c.step) ? Status() : wrong();
 }

@@ -75,8 +75,8 @@ class Contraction {
     first_free_ = static_cast<uint32_t>(alive_.size());
     while (alive_.size() > kBaseSize) {
       const size_t before = alive_.size();
-      run_level();
-      if (!worth_another_level(before - alive_.size(), alive_.size())) break;
+      run_sweep();
+      if (!worth_another_sweep(before - alive_.size(), alive_.size())) break;
     }
     return collect(isolated);
   }
@@ -97,16 +97,16 @@ class Contraction {
     }
   }
 
-  void run_level() {
-    ++level_;
+  void run_sweep() {
+    ++sweep_;
     std::erase_if(alive_, [&](uint32_t v) {
       const Valence valence = valence_[v];
-      if (locked_[v] == level_ || valence.full || valence.size == 0 || valence.size > kMaxValence)
+      if (locked_[v] == sweep_ || valence.full || valence.size == 0 || valence.size > kMaxValence)
         return false;
       const uint32_t target = choose_target(around_[v], valence.size);
       if (target == kNoTarget) return false;
       note(v);
-      for (uint32_t i = 0; i < valence.size; ++i) locked_[around_[v].vertex[i]] = level_;
+      for (uint32_t i = 0; i < valence.size; ++i) locked_[around_[v].vertex[i]] = sweep_;
       contract(v, target);
       return true;
     });
@@ -197,7 +197,7 @@ class Contraction {
     out_.order.insert(out_.order.end(), isolated.begin(), isolated.end());
     std::vector<uint32_t> row_of(none_);
     for (uint32_t r = 0; r < none_; ++r) row_of[out_.order[r]] = r;
-    out_.graph.step_level.resize(none_, 0);
+    out_.graph.step_index.resize(none_, 0);
     for (uint32_t r = 0; r < none_; ++r) {
       PredictionGraph::Row& row = out_.graph.rows[r];
       if (r - alive_.size() < removed_.size()) {
@@ -222,11 +222,11 @@ class Contraction {
   std::vector<Valence> valence_;
   std::vector<uint32_t> removed_;
   std::vector<uint32_t> alive_;
-  std::vector<uint32_t> locked_;  ///< level at which the vertex must stay
+  std::vector<uint32_t> locked_;  ///< sweep in which the vertex must stay
   std::vector<uint32_t> met_;
   SurfaceGraph out_;
   uint32_t first_free_ = 0;  ///< the rows from here on are complete
-  uint32_t level_ = 0;
+  uint32_t sweep_ = 0;
   uint32_t mark_ = 0;
 };
 

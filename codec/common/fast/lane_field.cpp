@@ -39,7 +39,7 @@ LaneField::LaneField(const PredictionGraph& graph, std::span<const float> weight
       magnitudes_(values_.size()),
       history_(graph.size(), 0) {
   for (uint32_t r = 0; r < graph.size(); ++r)
-    steps_[r] = static_cast<float>(kStepTable[graph.step_level[r]]) / 65536.0f;
+    steps_[r] = static_cast<float>(kStepTable[graph.step_index[r]]) / 65536.0f;
   block_.rows = graph.rows.data();
   block_.row_count = graph.size();
   block_.weights = weights.data();

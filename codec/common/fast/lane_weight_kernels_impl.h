@@ -3,6 +3,7 @@
 
 #include "codec/common/base/packed_matrix.h"
 #include "codec/common/fast/lane_weight_kernels.h"
+#include "codec/common/prediction/point_noise_impl.h"
 #include "codec/common/prediction/row_vectors_impl.h"
 #include "codec/common/simd/instruction_set.h"
 #include "codec/common/simd/vectors_impl.h"
@@ -37,10 +38,8 @@ inline RowFloats dot(const RowFloats* a, const RowFloats* b) {
   return out;
 }
 
-/// The reference counts for as much as it is exact: to half a grid unit, and to the surface's
-/// bending, relative to the mean squared distance of the neighbours.
+/// The reference counts for as much as it is exact.
 inline void learn_points(const LaneWeightTask& task, const Rows<RowFloats>& rows, RowFloats* a) {
-  constexpr float kGridVariance = 0.25f;
   constexpr float kBending = 0x1p-11f;
   RowFloats y[kMaxNeighbours][8];
   collect_differences(rows, task.points, kPointStride, y);
@@ -51,7 +50,7 @@ inline void learn_points(const LaneWeightTask& task, const Rows<RowFloats>& rows
   }
   const RowFloats one = RowFloats{} + 1.0f;
   const RowFloats counts = rows.counts > one ? rows.counts : one;
-  const RowFloats share = one / (kGridVariance + kBending * (spread / counts));
+  const RowFloats share = one / point_noise(spread / counts, kBending);
   for (uint32_t i = 0; i < packed(rows.count, 0); ++i) a[i] *= share;
 }
 

@@ -19,10 +19,10 @@ constexpr std::array<uint32_t, kMaxNeighbours + 1> kInverse = [] {
   return out;
 }();
 
-/// 2^50 / step, rounded up, of every level.
-const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
-  std::array<uint64_t, kStepLevels> out{};
-  for (uint32_t i = 0; i < kStepLevels; ++i)
+/// 2^50 / step, rounded up, of every size of a step.
+const std::array<uint64_t, kStepSizes> kInverseSteps = [] {
+  std::array<uint64_t, kStepSizes> out{};
+  for (uint32_t i = 0; i < kStepSizes; ++i)
     out[i] = ((uint64_t{1} << 50) + kStepTable[i] - 1) / kStepTable[i];
   return out;
 }();
@@ -30,29 +30,20 @@ const std::array<uint64_t, kStepLevels> kInverseSteps = [] {
 }  // namespace
 
 FieldOptions surface_field_options(bool weak_prior) {
-  FieldOptions options;
-  options.adaptive = uses(coding_tool::kReestimation);
-  options.noise_share = 2.2;
-  options.noise_floor = 0.2;
-  options.weights.ring_deviation = weak_prior ? 2.4 : 1.4;
-  options.weights.extra_deviation = weak_prior ? 1.5 : 0.9;
-  return options;
+  return {.weights = weak_prior ? WeightOptions{.ring_deviation = 2.4, .extra_deviation = 1.5}
+                                : WeightOptions{},
+          .adaptive = uses(coding_tool::kReestimation),
+          .noise_share = 2.2,
+          .noise_floor = 0.2};
 }
 
-FieldOptions unpredicted_field_options() {
-  FieldOptions options;
-  options.predict = false;
-  options.adaptive = false;
-  return options;
-}
+FieldOptions unpredicted_field_options() { return {.predict = false}; }
 
 FieldOptions basis_field_options() {
-  FieldOptions options;
-  options.weights = {.ring_deviation = 0.5, .extra_deviation = 0.25, .sum_to_one = false};
-  options.adaptive = uses(coding_tool::kBasisLearning);
-  options.noise_share = 0.5;
-  options.noise_floor = 0.05;
-  return options;
+  return {.weights = {.ring_deviation = 0.5, .extra_deviation = 0.25, .sum_to_one = false},
+          .adaptive = uses(coding_tool::kBasisLearning),
+          .noise_share = 0.5,
+          .noise_floor = 0.05};
 }
 
 Field::Plan::Plan(const PredictionGraph& graph, bool predict) : uses(find_uses(graph)) {
@@ -60,9 +51,9 @@ Field::Plan::Plan(const PredictionGraph& graph, bool predict) : uses(find_uses(g
   neighbours.reserve(graph.size());
   for (uint32_t r = 0; r < graph.size(); ++r) {
     const PredictionGraph::Row& row = graph.rows[r];
-    const uint32_t level = predict ? graph.step_level[r] : 0;
-    rows.push_back({kStepTable[level], kInverse[row.ring], kInverse[row.count - row.ring],
-                    kInverseSteps[level]});
+    const uint32_t step = predict ? graph.step_index[r] : 0;
+    rows.push_back({kStepTable[step], kInverse[row.ring], kInverse[row.count - row.ring],
+                    kInverseSteps[step]});
     neighbours.push_back(row.neighbour);
   }
 }

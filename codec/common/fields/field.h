@@ -17,10 +17,11 @@ namespace reeb {
 
 struct FieldOptions {
   WeightOptions weights;
-  double noise_share = 0.8;   ///< of a component's residual variance, as observation noise
-  double noise_floor = 0.02;  ///< observation noise of a perfectly predicted component, in q^2
-  bool predict = true;        ///< along the surface; false codes the values as they are
-  bool adaptive = true;       ///< re-estimate weights; false keeps those of the reference
+  bool predict = true;    ///< along the surface; false codes the values as they are
+  bool adaptive = false;  ///< re-estimate weights; false keeps those of the reference
+  // Of an adaptive field:
+  double noise_share = 0;  ///< of a component's residual variance, as observation noise
+  double noise_floor = 0;  ///< observation noise of a perfectly predicted component, in q^2
 };
 
 /// Options of the two fields of a group of the main profile; `weak_prior` as in its header.

@@ -19,7 +19,7 @@ DifferenceHistory::DifferenceHistory(const PredictionGraph& graph)
   running_.fill(kUsualSize * kRunning);
   for (uint32_t row = 0; row < graph.size(); ++row) {
     const uint32_t octaves = log2_q5(std::max(1u, graph.size() / (row + 1))) / 32;
-    level_.push_back(static_cast<uint8_t>(std::min(7u, octaves)));
+    coarseness_.push_back(static_cast<uint8_t>(std::min(7u, octaves)));
   }
 }
 

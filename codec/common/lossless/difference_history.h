@@ -66,7 +66,7 @@ class DifferenceHistory {
                                    : (near + c.axis_before) / 13;
     c.expected = std::max(all, 0);
     c.axis = axis;
-    c.level = level_[row];
+    c.coarseness = coarseness_[row];
     c.sign_before = int32_t{own.sign[axis]};
     c.sign_nearest = r.count > 0 ? nearest.sign[axis] : 0;
     c.sign_next = r.count > 1 ? traces_[r.neighbour[1]].sign[axis] : 0;
@@ -97,8 +97,8 @@ class DifferenceHistory {
 
   const PredictionGraph& graph_;
   std::vector<Trace> traces_;
-  std::vector<uint8_t> level_;     ///< of each row, see DifferenceContext
-  std::array<int32_t, 3> ring_{};  ///< of the row in hand: mean size over the neighbours, by axis
+  std::vector<uint8_t> coarseness_;  ///< of each row, see DifferenceContext
+  std::array<int32_t, 3> ring_{};    ///< of the row in hand: mean size over the neighbours, by axis
   std::array<int32_t, 3> running_{};  ///< decaying mean size over the rows, times kRunning
 };
 

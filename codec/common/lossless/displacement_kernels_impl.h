@@ -14,7 +14,7 @@ constexpr double kEnergyKept = 0.25;        // of the mean squared error
 constexpr double kInverseVariance = 0.125;  // of a weight, as far as its prior knows
 constexpr double kMinRidge = 0x1p-34;       // relative to the trace
 constexpr double kTinyRidge = 1e-100;       // where nothing has moved yet
-constexpr double kLargestWeight = 64;
+constexpr double kMaxWeight = 64;
 
 /// The terms of one axis, term i in y[i].
 inline void gather_terms(const DisplacementBatch& batch, const DisplacementFrame& frame,
@@ -75,7 +75,7 @@ inline void solve_displacements(const DisplacementBatch& batch, uint32_t first, 
   solve_system<1>(n, a);
   for (uint32_t i = 0; i < n; ++i) {
     const Doubles zero{};
-    w[i] = w[i] < kLargestWeight && w[i] > -kLargestWeight ? w[i] : zero;
+    w[i] = w[i] < kMaxWeight && w[i] > -kMaxWeight ? w[i] : zero;
   }
   store_weights(w, n, out);
 }

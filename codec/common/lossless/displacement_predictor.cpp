@@ -16,9 +16,9 @@ struct DisplacementPredictor::Batches {
 
 namespace {
 
-constexpr double kAloneWeight = 0.8;  ///< of the last displacement where there is no neighbour
-constexpr uint32_t kFirstFrames = 8;  ///< that are all learned from
-constexpr float kFarthest = 1e37f;    ///< displacements are cut there: sums stay finite
+constexpr double kAloneWeight = 0.8;       ///< of the last displacement where there is no neighbour
+constexpr uint32_t kFirstFrames = 8;       ///< that are all learned from
+constexpr float kMaxDisplacement = 1e37f;  ///< displacements are cut there: sums stay finite
 
 void init_row(DisplacementBatch& batch, uint32_t place, uint32_t r, uint32_t terms,
               const PredictionGraph::Row& row) {
@@ -91,7 +91,7 @@ void DisplacementPredictor::place(uint32_t row, const float xyz[3],
   for (size_t a = 0; a < 3; ++a) {
     const double e = static_cast<double>(xyz[a]) - predicted[a];
     square += e * e;
-    moved[a] = std::clamp(xyz[a] - position[a], -kFarthest, kFarthest);
+    moved[a] = std::clamp(xyz[a] - position[a], -kMaxDisplacement, kMaxDisplacement);
     position[a] = xyz[a];
   }
   squared_error_[row] = square;

@@ -78,8 +78,8 @@ class NumberSet {
   static constexpr int64_t kMultiplesEnd = int64_t{1} << (kRankBits - 1);
 
   static uint64_t binary_rank(double x) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    return std::bit_cast<uint32_t>(static_cast<float>(x < kLargest ? x : kLargest));
+    constexpr double kMaxFloat = std::numeric_limits<float>::max();
+    return std::bit_cast<uint32_t>(static_cast<float>(x < kMaxFloat ? x : kMaxFloat));
   }
   /// floor(x / step + 1/2), within the ranks.
   int64_t nearest_multiple(double x) const {

@@ -24,7 +24,7 @@ std::array<uint32_t, RankModel::kTables> RankModel::entries(const DifferenceCont
   const std::array<uint32_t, kTables> context = {
       (relative(c.before, c) * 16 + relative(c.ring, c)) * 8 + phase,
       (relative(c.axis_before, c) * 16 + relative(c.before, c)) * 8 + phase,
-      (c.level * 8 + phase) * 3 + c.axis,
+      (c.coarseness * 8 + phase) * 3 + c.axis,
       absolute,
       (relative(c.ring, c) * 16 + relative(c.axis_before, c)) * 8 + phase,
       relative(c.older, c) * 16 + relative(c.nearest, c),

@@ -29,7 +29,7 @@ struct DifferenceContext {
   int32_t nearest = 0;       ///< of the first neighbour in this frame
   int32_t axis_before = 0;   ///< of the row's axis before this one, or of recent rows
   uint32_t axis = 0;         ///< 0 .. 2
-  uint32_t level = 0;        ///< 0 .. 7, from the finest rows to the coarsest
+  uint32_t coarseness = 0;   ///< 0 .. 7, from the finest rows to the coarsest
   int32_t sign_before = 0;   ///< of the row's difference in the frame before
   int32_t sign_nearest = 0;  ///< of the first two neighbours' in this frame
   int32_t sign_next = 0;

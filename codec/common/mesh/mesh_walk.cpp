@@ -33,18 +33,18 @@ class Waiting {
   explicit Waiting(uint32_t point_count) : count_(point_count) {}
 
   void raise(uint32_t point) {
-    if (count_[point] == kLevels) return;
+    if (count_[point] == kQueues) return;
     queues_[count_[point]++].push_back(point);
   }
 
   /// The next point that had no turn, or kNoTurn when no triangle is known.
   uint32_t take(const std::vector<uint32_t>& turn_of) {
-    for (uint32_t level = kLevels; level-- > 0;) {
-      std::vector<uint32_t>& queue = queues_[level];
-      size_t& at = heads_[level];
+    for (uint32_t known = kQueues; known-- > 0;) {
+      std::vector<uint32_t>& queue = queues_[known];
+      size_t& at = heads_[known];
       while (at < queue.size()) {
         const uint32_t point = queue[at++];
-        if (turn_of[point] == kNoTurn && count_[point] == level + 1) return point;
+        if (turn_of[point] == kNoTurn && count_[point] == known + 1) return point;
       }
       queue.clear();
       at = 0;
@@ -53,10 +53,10 @@ class Waiting {
   }
 
  private:
-  static constexpr uint32_t kLevels = 6;
+  static constexpr uint32_t kQueues = 6;
   std::vector<uint8_t> count_;
-  std::array<std::vector<uint32_t>, kLevels> queues_;
-  std::array<size_t, kLevels> heads_{};
+  std::array<std::vector<uint32_t>, kQueues> queues_;
+  std::array<size_t, kQueues> heads_{};
 };
 
 /// Calls start(point) at each point's turn, then known(turn_of, a, b) for each of its triangles

@@ -83,7 +83,7 @@ class EdgeOrder {
   std::vector<uint64_t> keys_, sorted_;
 };
 
-/// Half-edge collapses, level after level: in each, vertices with short edges first, none next to
+/// Half-edge collapses, sweep after sweep: in each, vertices with short edges first, none next to
 /// one that was removed, and none whose removal would change the topology.
 class Collapser {
  public:
@@ -105,16 +105,16 @@ class Collapser {
       (mesh_.valence(v) == 0 ? out.isolated : alive_).push_back(v);
     out.collapses.reserve(alive_.size());
     while (alive_.size() > kBaseSize) {
-      const size_t removed = run_level(out.collapses);
-      if (!worth_another_level(removed, alive_.size())) break;
+      const size_t removed = run_sweep(out.collapses);
+      if (!worth_another_sweep(removed, alive_.size())) break;
     }
     out.base = std::move(alive_);
     return out;
   }
 
  private:
-  size_t run_level(std::vector<Collapse>& out) {
-    ++level_;
+  size_t run_sweep(std::vector<Collapse>& out) {
+    ++sweep_;
     const size_t before = out.size();
     for (const uint64_t key : order_.sort(alive_, mesh_))
       try_vertex(static_cast<uint32_t>(key), out);
@@ -130,7 +130,7 @@ class Collapser {
 
   void try_vertex(uint32_t v, std::vector<Collapse>& out) {
     const uint32_t valence = mesh_.valence(v);
-    if (locked_[v] == level_ || valence == 0 || valence > kMaxValence) return;
+    if (locked_[v] == sweep_ || valence == 0 || valence > kMaxValence) return;
     take_near(v);
     const uint32_t target = choose_target(v);
     if (target == mesh_.none()) return;
@@ -173,7 +173,7 @@ class Collapser {
     std::array<int32_t, kMaxNear> keys;
     for (size_t i = 0; i < near_.by_eights().size(); ++i) {
       keys[i] = i < near_.count ? static_cast<int32_t>(near_.vertex[i]) : kNoKey;
-      locked_[near_.vertex[i]] = level_;
+      locked_[near_.vertex[i]] = sweep_;
     }
     std::copy(near_.vertex.begin(), near_.vertex.end(), ring.begin());
     sort_few(keys.data(), ring.begin(), near_.count);
@@ -214,8 +214,8 @@ class Collapser {
   EdgeOrder order_;
   Indices alive_;
   MarkedVertices seen_;
-  Indices locked_;  ///< level at which the vertex must stay; kGone for good
-  uint32_t level_ = 0;
+  Indices locked_;  ///< sweep in which the vertex must stay; kGone for good
+  uint32_t sweep_ = 0;
   Near near_;    ///< of the vertex at hand
   Indices far_;  ///< others near it
 };

@@ -1,6 +1,6 @@
 // A triangle mesh whose vertices merge into their neighbours, one after another: which vertices are
 // joined by an edge, how long their edges are, which triangles they have. What goes on here knows
-// no order and no levels; see collapse.cpp for these.
+// no order and no sweeps; see collapse.cpp for these.
 //
 // All of it goes without branches on what the mesh looks like: processors cannot foresee them.
 #pragma once

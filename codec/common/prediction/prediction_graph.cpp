@@ -7,10 +7,10 @@ namespace {
 // 2^(-0.225 / 8) in units of 2^-30, and its powers, each rounded down.
 constexpr uint64_t kStepRatio = 1053012196;
 
-constexpr std::array<uint32_t, kStepLevels> make_step_table() {
-  std::array<uint32_t, kStepLevels> table{};
+constexpr std::array<uint32_t, kStepSizes> make_step_table() {
+  std::array<uint32_t, kStepSizes> table{};
   uint64_t power = 1u << 30;
-  for (uint32_t i = 0; i < kStepLevels; ++i) {
+  for (uint32_t i = 0; i < kStepSizes; ++i) {
     table[i] = static_cast<uint32_t>(power >> 14);
     power = power * kStepRatio >> 30;
   }
@@ -19,7 +19,7 @@ constexpr std::array<uint32_t, kStepLevels> make_step_table() {
 
 }  // namespace
 
-constexpr std::array<uint32_t, kStepLevels> kStepTable = make_step_table();
+constexpr std::array<uint32_t, kStepSizes> kStepTable = make_step_table();
 
 RowUses find_uses(const PredictionGraph& graph) {
   return RowUses(graph.size(), [&](auto put) {

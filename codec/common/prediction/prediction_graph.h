@@ -32,15 +32,15 @@ struct PredictionGraph {
   };
   RawVector<Row> rows;
   std::vector<uint8_t>
-      step_level;  ///< index into kStepTable: a row that predicts many gets a finer step
+      step_index;  ///< index into kStepTable: a row that predicts many gets a finer step
 
   uint32_t size() const { return static_cast<uint32_t>(rows.size()); }
 };
 
 /// Step of a row relative to the group's step q, in 1/65536: 65536 * 2^(-0.225 i / 8), i the row's
-/// level, the level being 8 log2 of its prediction mass.
-inline constexpr uint32_t kStepLevels = 192;
-extern const std::array<uint32_t, kStepLevels> kStepTable;
+/// step index, 8 log2 of its prediction mass.
+inline constexpr uint32_t kStepSizes = 192;
+extern const std::array<uint32_t, kStepSizes> kStepTable;
 
 /// Rows that each row is a neighbour of, each times 2, plus 1 where that is in its ring.
 using RowUses = ItemLists<uint32_t>;

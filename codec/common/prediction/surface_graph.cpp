@@ -180,10 +180,10 @@ void weigh_row(const GridPoints& points, const std::vector<uint32_t>& order, uin
 }
 
 /// Prediction mass M (1 plus the prior-weighted mass of what the row predicts) in 1/256, then
-/// levels.
+/// step indices.
 void assign_steps(PredictionGraph& graph) {
   std::vector<uint64_t> mass(graph.size(), 256);
-  graph.step_level.resize(graph.size());
+  graph.step_index.resize(graph.size());
   if (!uses(coding_tool::kMassSteps)) return;
   for (uint32_t r = graph.size(); r-- > 0;) {
     const PredictionGraph::Row& row = graph.rows[r];
@@ -191,8 +191,8 @@ void assign_steps(PredictionGraph& graph) {
       const auto share = static_cast<uint64_t>(row.prior[i] * 65536.0f);
       mass[row.neighbour[i]] += mass[r] * share >> 16;
     }
-    const uint32_t level = (log2_q5(mass[r]) - 8 * 32) / 4;
-    graph.step_level[r] = static_cast<uint8_t>(std::min(level, kStepLevels - 1));
+    const uint32_t index = (log2_q5(mass[r]) - 8 * 32) / 4;
+    graph.step_index[r] = static_cast<uint8_t>(std::min(index, kStepSizes - 1));
   }
 }
 

@@ -68,7 +68,7 @@ class TemporalGraphBuilder {
     for (const Instant& at : instants) {
       for (uint32_t axis = 0; axis < 3; ++axis) add_row(at, axis);
     }
-    out_.graph.step_level.assign(out_.graph.size(), 0);
+    out_.graph.step_index.assign(out_.graph.size(), 0);
     return std::move(out_);
   }
 

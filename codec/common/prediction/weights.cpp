@@ -7,17 +7,17 @@
 
 #include "codec/common/base/item_lists.h"
 #include "codec/common/base/parallel.h"
+#include "codec/common/prediction/point_noise_impl.h"
 
 namespace reeb {
 
 namespace {
 
-/// The positions are exact to half a grid unit and to the surface's bending.
+/// The positions are exact to their noise.
 void observe_rows(const PredictionGraph& graph, const GridPoints& points,
                   const std::vector<uint32_t>& order, const uint32_t rows[kRowsAtOnce],
                   const WeightKernels& kernels, BatchVector<RowEquations>& equations) {
-  constexpr double kGridVariance = 0.25;  // of half a grid unit
-  constexpr double kBending = 2e-3;       // relative to the mean squared distance of the neighbours
+  constexpr double kBending = 2e-3;
   PointDifferences y{};
   RowEquations* out[kRowsAtOnce];
   uint32_t most = 0;
@@ -35,8 +35,7 @@ void observe_rows(const PredictionGraph& graph, const GridPoints& points,
         spread += d * d;
       }
     }
-    y.inverse_noise[l] =
-        1.0 / (kGridVariance + kBending * (static_cast<double>(spread) / row.count));
+    y.inverse_noise[l] = 1.0 / point_noise(static_cast<double>(spread) / row.count, kBending);
   }
   kernels.observe_points(y, most, out);
 }

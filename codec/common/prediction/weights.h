@@ -17,9 +17,9 @@
 namespace reeb {
 
 struct WeightOptions {
-  double ring_deviation = 1.2;    ///< prior standard deviation of a ring neighbour's weight
-  double extra_deviation = 0.84;  ///< of any other neighbour's
-  bool sum_to_one = true;         ///< weights reproduce constants
+  double ring_deviation = 1.4;   ///< prior standard deviation of a ring neighbour's weight
+  double extra_deviation = 0.9;  ///< of any other neighbour's
+  bool sum_to_one = true;        ///< weights reproduce constants
 };
 
 /// Weights minimise sum_o (sum_i w_i y_oi - t_o)^2 / noise_o + sum_i (w_i - prior_i)^2 /

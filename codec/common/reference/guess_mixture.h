@@ -36,8 +36,8 @@ class ErrorModel {
   static constexpr uint32_t kBuckets = kBlock * kBlocks;
   static const std::array<uint32_t, 2 * kBlock> kAfter;
 
-  /// Weights of the errors of one sign, in 1/256, summed up at two levels, so that both looking up
-  /// and adding are quick.
+  /// Weights of the errors of one sign, in 1/256, summed up twice, in blocks and within, so that
+  /// both looking up and adding are quick.
   struct Side {
     std::array<uint32_t, kBlocks + 3> blocks;  // all blocks before; some more to fill up vectors
     std::array<uint32_t, kBuckets> before;     // the buckets before of the same block

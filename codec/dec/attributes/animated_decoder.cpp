@@ -34,8 +34,8 @@ bool fits(const GroupHeader& part, const AttributeGroupHeader& group) {
 void store(ValueType type, double scale, float coordinate, uint8_t* to) {
   const double number = scale * static_cast<double>(coordinate);
   if (type == ValueType::kBinary32) {
-    const float x =
-        static_cast<float>(std::clamp(number, -ChannelHeader::kLargest, ChannelHeader::kLargest));
+    const float x = static_cast<float>(
+        std::clamp(number, -ChannelHeader::kMaxNumber, ChannelHeader::kMaxNumber));
     std::memcpy(to, &x, sizeof x);
     return;
   }

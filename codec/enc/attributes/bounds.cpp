@@ -21,8 +21,8 @@ void widen(std::span<const float> xyz, Box& box) {
 }
 
 Status box_of(Decoder& decoder, const StreamInfo::Group& group, uint32_t vertices, Box& box) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  box = {{kMost, kMost, kMost}, {-kMost, -kMost, -kMost}};
+  constexpr float kMaxFloat = std::numeric_limits<float>::max();
+  box = {{kMaxFloat, kMaxFloat, kMaxFloat}, {-kMaxFloat, -kMaxFloat, -kMaxFloat}};
   const size_t frame = size_t{vertices} * 3;
   std::vector<float> xyz(frame * kAtOnce);
   for (uint32_t t = 0; t < group.frame_count; t += kAtOnce) {

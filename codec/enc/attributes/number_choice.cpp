@@ -34,7 +34,7 @@ ChannelFit fit_multiples(const std::vector<float>& values, double step, double e
   for (size_t i = 0; i < values.size(); ++i) {
     const auto x = static_cast<double>(values[i]);
     const double n = std::floor(x / step + 0.5);
-    bool good = std::abs(n) < kMaxMultiple && std::abs(n * step) <= ChannelHeader::kLargest;
+    bool good = std::abs(n) < kMaxMultiple && std::abs(n * step) <= ChannelHeader::kMaxNumber;
     if (good) {
       const float back = binary32_of(n, step);
       good = error > 0 ? std::abs(static_cast<double>(back) - x) <= error

@@ -32,8 +32,8 @@ FieldEncoder::FieldEncoder(Field& field, const PredictionGraph& graph, double la
 
 int64_t FieldEncoder::decide(double residual, double step, double importance,
                              MagnitudeModel::Bins& bins) const {
-  constexpr auto kLargest = MagnitudeModel::kMaxMagnitude / 2;
-  const double size = std::min(std::abs(residual) / step, static_cast<double>(kLargest));
+  constexpr auto kMaxSize = MagnitudeModel::kMaxMagnitude / 2;
+  const double size = std::min(std::abs(residual) / step, static_cast<double>(kMaxSize));
   uint64_t n = MagnitudeModel::representable(static_cast<uint64_t>(size + 0.5));
   if (n > 0 && n < MagnitudeModel::kEscapeBegin) {
     n = cheapest_magnitude(size, static_cast<uint32_t>(n), step, importance, lambda_,

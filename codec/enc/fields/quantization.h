@@ -14,7 +14,7 @@ namespace reeb {
 inline std::vector<double> row_importance(const PredictionGraph& graph, double exponent) {
   std::vector<double> out;
   out.reserve(graph.size());
-  for (const uint8_t level : graph.step_level) out.push_back(std::exp2(exponent * level / 8.0));
+  for (const uint8_t index : graph.step_index) out.push_back(std::exp2(exponent * index / 8.0));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What each effort level spends time on.
+// What each effort spends time on.
 #pragma once
 
 #include <cstdint>

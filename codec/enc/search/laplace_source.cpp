@@ -10,7 +10,7 @@ double bits_of(double p) { return p > 0 ? -p * std::log2(p) : 0; }
 }  // namespace
 
 RatePoint quantized_laplace_source(double scale, double step, double threshold) {
-  // Density exp(-|x| / b) / 2b. Level 1 covers (threshold, 3/2) steps, level n > 1 covers
+  // Density exp(-|x| / b) / 2b. Magnitude 1 covers (threshold, 3/2) steps, magnitude n > 1 covers
   // (n - 1/2, n + 1/2) with probability p2 r^(n - 2) a side.
   const double b = std::max(scale, 1e-300);
   const double zone = threshold * step;
@@ -30,9 +30,9 @@ RatePoint quantized_laplace_source(double scale, double step, double threshold) 
   };
   const double inner = 2 * b * b - error_from(zone, 0);
   const double first = error_from(zone, step) - error_from(1.5 * step, step);
-  // All further levels are alike: x from half a step below to half a step above.
-  const double level = error_from(0, step / 2) - error_from(step, step / 2);
-  out.distortion = inner + first + (r < 1 ? beyond * level / (1 - r) : 0);
+  // All further magnitudes are alike: x from half a step below to half a step above.
+  const double further = error_from(0, step / 2) - error_from(step, step / 2);
+  out.distortion = inner + first + (r < 1 ? beyond * further / (1 - r) : 0);
   return out;
 }
 

@@ -21,8 +21,8 @@ uint32_t octave_of(uint32_t row) { return static_cast<uint32_t>(std::bit_width(r
 /// Class of a row by its energy relative to the mean.
 uint32_t activity_of(double energy, double mean) {
   if (!(energy > 0)) return 0;
-  const double level = std::floor(std::log2(energy / mean) / 4) + (kActivities - 2);
-  return static_cast<uint32_t>(std::clamp(level, 0.0, double{kActivities} - 1));
+  const double activity = std::floor(std::log2(energy / mean) / 4) + (kActivities - 2);
+  return static_cast<uint32_t>(std::clamp(activity, 0.0, double{kActivities} - 1));
 }
 
 /// Where an optimising quantizer gives up on 1, in steps, if a bit costs `price` squared steps.
@@ -55,8 +55,8 @@ void RateModel::sort_samples(const SurfaceContext& surface) {
     Band& band = bands_[octave_of(row) * kActivities + activity_of(e, mean)];
     band.activity = activity_of(e, mean);
     band.rows += 1;
-    band.step += static_cast<double>(kStepTable[graph.step_level[row]]) / 65536;
-    band.importance += std::exp2(options_.mass_exponent * graph.step_level[row] / 8.0);
+    band.step += static_cast<double>(kStepTable[graph.step_index[row]]) / 65536;
+    band.importance += std::exp2(options_.mass_exponent * graph.step_index[row] / 8.0);
     if ((static_cast<uint32_t>(band.rows) - 1) % stride != 0) continue;
     Sample& sample = band.samples.emplace_back();
     sample.vertex = surface.input[row];

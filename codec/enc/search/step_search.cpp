@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kErrorSlope = 0.9;  ///< d ln(error) / d ln(q), typically
 constexpr double kSizeSlope = -0.7;
-constexpr double kLongSecant = 0.2;   ///< in ln q
-constexpr double kLongestStep = 2.0;  ///< in ln q
+constexpr double kLongSecant = 0.2;  ///< in ln q
+constexpr double kMaxChange = 2.0;   ///< in ln q
 
 /// Trials so far, as a function of ln q; `sign` makes it an increasing one.
 class Bracket {
@@ -36,7 +36,7 @@ class Bracket {
   }
 
   double next() const {
-    const double step = std::clamp(-last_y_ / slope_, -kLongestStep, kLongestStep);
+    const double step = std::clamp(-last_y_ / slope_, -kMaxChange, kMaxChange);
     const double x = last_x_ + step;
     const bool bracketed = std::isfinite(low_) && std::isfinite(high_);
     if (bracketed && (x <= low_ || x >= high_)) return 0.5 * (low_ + high_);

@@ -120,7 +120,7 @@ TEST_CASE("without rate every value comes back to half its step", "[field]") {
   const Coded coded = encode(s, targets, surface_field_options(), 0);
   for (size_t k = 0; k < targets.size(); ++k) {
     for (uint32_t r = 0; r < targets[k].size(); ++r) {
-      const double step = kStepTable[s.graph.graph.step_level[r]] / 65536.0;
+      const double step = kStepTable[s.graph.graph.step_index[r]] / 65536.0;
       const double error =
           static_cast<double>(coded.planes[k][r]) - static_cast<double>(targets[k][r]);
       REQUIRE(std::abs(error) <= 0.5 * step + 1e-3);

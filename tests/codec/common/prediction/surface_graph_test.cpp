@@ -109,10 +109,10 @@ TEST_CASE("rows that predict more have finer steps", "[surface_graph]") {
     for (uint32_t i = 0; i < row.ring; ++i) predicts[row.neighbour[i]] = true;
   }
   for (uint32_t r = 0; r < g.size(); ++r) {
-    REQUIRE(g.step_level[r] < kStepLevels);
-    if (!predicts[r]) REQUIRE(g.step_level[r] == 0);
+    REQUIRE(g.step_index[r] < kStepSizes);
+    if (!predicts[r]) REQUIRE(g.step_index[r] == 0);
   }
-  CHECK(g.step_level[0] > g.step_level[g.size() / 2]);
+  CHECK(g.step_index[0] > g.step_index[g.size() / 2]);
 }
 
 TEST_CASE("the first rows lie all over the mesh", "[surface_graph]") {
