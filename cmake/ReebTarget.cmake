@@ -36,13 +36,15 @@ function(reeb_library name)
 endfunction()
 
 # reeb_together(TARGET [FILES...]): compiles these files, or all of a target, as one translation unit, since what
-# they include and instantiate alike takes most of their time.
+# they include and instantiate alike takes most of their time. A target may have several such groups.
 option(REEB_TOGETHER "Compile files that include much alike as one translation unit" ON)
 function(reeb_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${REEB_TOGETHER})
   if(ARGN)
+    list(GET ARGN 0 first)
+    string(MAKE_C_IDENTIFIER "with_${first}" group)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP together)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
   else()
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
   endif()

@@ -9,7 +9,7 @@ namespace reeb::tools {
 namespace {
 
 constexpr uint32_t kVertices = 5000;
-constexpr double kBlend = 0.06;
+constexpr double kJoint = 0.06;
 
 // SplitMix64 (G. Steele, D. Lea, C. Flood, 2014).
 class Random {
@@ -32,7 +32,7 @@ class Builder {
  public:
   Builder(uint64_t individual, uint64_t pose) : build_(individual), pose_(pose) {}
 
-  Solid solid{kBlend};
+  Solid solid{kJoint};
 
   double vary(double value, double part = 0.2) {
     return value * build_.uniform(1 - part, 1 + part);
