@@ -68,8 +68,8 @@ struct MeshHeader {
   uint32_t vertex_count = 1;
   uint32_t face_count = 0;
   uint8_t flags = 0;
-  uint64_t draco_bytes = 0;     ///< Draco's part; 0 where no face is left to it
-  uint64_t rest_bytes = 0;      ///< what Draco does not carry
+  uint64_t draco_bytes = 0;     ///< connectivity as Draco writes it; 0 where there is none
+  uint64_t rest_bytes = 0;      ///< what that does not carry
   uint64_t position_bytes = 0;  ///< where plain: positions, which are in the rest otherwise
   uint64_t order_bytes = 0;     ///< permutation to the order of the input
   uint64_t face_bytes = 0;      ///< order and first corners of the faces

@@ -13,7 +13,7 @@ setup() {
   "${as_root[@]}" dpkg --add-architecture i386
   "${as_root[@]}" apt-get update -qq
   DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends \
-    libdraco-dev:amd64 libdraco-dev:i386 libdraco-dev:arm64 g++-i686-linux-gnu g++-aarch64-linux-gnu qemu-user
+    libstdc++6:i386 libstdc++6:arm64 g++-i686-linux-gnu g++-aarch64-linux-gnu qemu-user
 }
 
 # cross KIND: CMake options that make it.
@@ -23,15 +23,14 @@ options() {
     clang) echo -DCMAKE_CXX_COMPILER=clang++ ;;
     O0) echo -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O0 ;;
     sanitize) echo -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DREEB_SANITIZE=address,undefined ;;
-    i386) foreign i686 i386-linux-gnu; echo -DREEB_WERROR=OFF ;;  # sizes of 32 bits warn
-    arm64) foreign aarch64 aarch64-linux-gnu ;;
+    i386) foreign i686; echo -DREEB_WERROR=OFF ;;  # sizes of 32 bits warn
+    arm64) foreign aarch64 ;;
     *) echo "no such kind: $1" >&2; return 1 ;;
   esac
 }
 
 foreign() {
-  echo -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$1" -DCMAKE_CXX_COMPILER="$1-linux-gnu-g++" \
-    -Ddraco_DIR="/usr/lib/$2/cmake/draco"
+  echo -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="$1" -DCMAKE_CXX_COMPILER="$1-linux-gnu-g++"
 }
 
 run_kind() {

@@ -421,7 +421,7 @@ def add_sections(m):
           file.edited(b"REFM", order=mesh["order"] + b"\0", order_bytes=len(mesh["order"])))
     m.add("fewer_vertices", "corrupt", "More points than vertices.", file.edited(b"REFM", vertex_count=20))
     m.add("fewer_faces", "corrupt", "More polygons than faces.", file.edited(b"REFM", face_count=3))
-    m.add("draco_damaged", "corrupt", "Draco refuses its section.",
+    m.add("draco_damaged", "corrupt", "Symbols that make no surface.",
           file.edited(b"REFM", draco=mesh["draco"][:8] + bytes(len(mesh["draco"]) - 8)))
     m.add("draco_traversal", "corrupt", "An unknown traversal.", file.edited(b"REFM", draco=b"\1" + mesh["draco"][1:]))
     m.add("draco_counts", "corrupt", "More triangles than the mesh's bytes can hold.",

@@ -152,7 +152,7 @@ class Tree:
         objects.append(self.compile_runner())
         program = self.out / "runner"
         # The kernels of other instruction sets are missing, and `BASE_ALONE` sees to it that nothing calls them.
-        subprocess.run([self.compiler, "-o", program, *objects, "-ldraco", "-pthread", "-no-pie",
+        subprocess.run([self.compiler, "-o", program, *objects, "-pthread", "-no-pie",
                         "-Wl,--unresolved-symbols=ignore-all"], check=True)
         return program
 

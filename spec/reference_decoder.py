@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 """Reference decoder of the Reeb format: slow, plain, in the order of the specification.
 
-    reference_decoder.py --draco COMMAND STREAM [OUT]
+    reference_decoder.py STREAM [OUT]
 
-Written from the chapters beside it, not from the product's sources; it needs Python 3.8 and nothing else, but for COMMAND,
-which decodes the Draco file that reference_mesh.md section 1 puts together: `COMMAND FILE` prints the number of points,
-then the three points of every triangle. (conformance/draco_triangles.cpp is such a program.)
+Written from the chapters beside it, not from the product's sources; it needs Python 3.8 and nothing else.
 
 Frames are written to OUT in the form of conformance/README.md; without OUT, their hashes are printed, one line a frame.
 The exit code is that of the result, conformance/README.md.
 """
 import argparse
 import hashlib
-import shlex
 import struct
 import sys
 
@@ -48,9 +45,9 @@ def write_frame(out, t, connectivity, positions):
         print(t, hashlib.sha256(positions).hexdigest(), hashlib.sha256(connectivity).hexdigest(), flush=True)
 
 
-def decode_frames(file, draco_command, out):
+def decode_frames(file, out):
     """Writes every frame that decodes; the result of the first that does not, or of the file."""
-    decoder = Decoder(file, draco_command)
+    decoder = Decoder(file)
     result = "truncated" if file.truncated else "ok"
     lost = set()  # groups that do not decode
     written = set()  # static attributes: shot and index
@@ -93,7 +90,6 @@ def report(fault):
 
 def main():
     parser = argparse.ArgumentParser(description="Decodes a .reeb stream by the specification, slowly.")
-    parser.add_argument("--draco", required=True, metavar="COMMAND", help="prints points and triangles of a Draco file")
     parser.add_argument("stream")
     parser.add_argument("out", nargs="?", help="frames in the form of conformance/README.md")
     arguments = parser.parse_args()
@@ -101,7 +97,7 @@ def main():
         data = file.read()
     out = open(arguments.out, "wb") if arguments.out else None
     try:
-        result = decode_frames(read_file(data), shlex.split(arguments.draco), out)
+        result = decode_frames(read_file(data), out)
     except Refused as fault:
         report(fault)
         result = fault.name

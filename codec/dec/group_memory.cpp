@@ -4,7 +4,7 @@
 #include "codec/common/motion/motion_model.h"
 #include "codec/common/prediction/weight_kernels.h"
 #include "codec/common/synthesis/correction_field.h"
-#include "codec/dec/draco_connectivity.h"
+#include "codec/dec/connectivity/connectivity_decoder.h"
 
 namespace reeb {
 
@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kBytesPerRow = 2600;
 constexpr uint64_t kFastBytesPerRow = 800;  ///< whose equations are not kept
 constexpr uint64_t kBytesPerTime = 3 * kBytesPerRow;
-/// Of a reference mesh while it is decoded, without what Draco takes.
+/// Of a reference mesh while it is decoded, without what its connectivity takes.
 constexpr uint64_t kMeshBytesPerVertex = 720, kMeshBytesPerFace = 80;
 
 /// What a group of a profile takes for each row of its fields.
@@ -49,9 +49,9 @@ uint64_t bytes_of(const std::vector<T, Allocator>& v) {
 
 }  // namespace
 
-uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles) {
+uint64_t reference_memory(const MeshHeader& header, uint64_t coded_triangles) {
   return header.vertex_count * kMeshBytesPerVertex + header.face_count * kMeshBytesPerFace +
-         draco_triangles * kDracoMemoryPerTriangle;
+         coded_triangles * kConnectivityMemoryPerTriangle;
 }
 
 uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {

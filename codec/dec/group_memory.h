@@ -9,9 +9,9 @@
 
 namespace reeb {
 
-/// Bytes that decoding a reference mesh and preparing it for prediction takes at most; `draco`:
-/// the triangles that its Draco section announces.
-uint64_t reference_memory(const MeshHeader& header, uint64_t draco_triangles);
+/// Bytes that decoding a reference mesh and preparing it for prediction takes at most;
+/// `coded_triangles`: that its connectivity announces.
+uint64_t reference_memory(const MeshHeader& header, uint64_t coded_triangles);
 
 /// Bytes that decoding a group takes at most, its surface included.
 uint64_t group_memory(uint64_t vertices, const GroupHeader& header);

@@ -14,7 +14,7 @@
 #include "codec/common/reference/position_syntax.h"
 #include "codec/common/reference/reference_syntax.h"
 #include "codec/common/reference/vertex_order.h"
-#include "codec/dec/draco_connectivity.h"
+#include "codec/dec/connectivity/connectivity_decoder.h"
 #include "entropy/interval_coder.h"
 
 namespace reeb {
@@ -47,8 +47,8 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
 Status decode_state(const Sections& sections, const Limits& limits, uint64_t max_triangles,
                     bool plain, MeshState& state, std::optional<TriangleTopology>& topology) {
   if (!sections.draco.empty()) {
-    DracoMesh mesh;
-    if (Status s = decode_draco_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
+    PointTriangles mesh;
+    if (Status s = decode_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
       return s;
     state.point_count = mesh.point_count;
     state.triangles = std::move(mesh.triangles);
@@ -87,8 +87,8 @@ Status decode_plain(const MeshHeader& h, const Sections& sections,
   return decode_plain_order(sections.order, walk, output_index);
 }
 
-/// `topology`: of Draco's triangles and points, which mostly are all triangles and all vertices.
-/// Leaves the order of a plain mesh, which is there already.
+/// `topology`: of the edgebreaker's triangles and points, which mostly are all triangles and all
+/// vertices. Leaves the order of a plain mesh, which is there already.
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
                     std::span<const uint32_t> triangles, std::optional<TriangleTopology>& topology,
                     std::vector<uint32_t>& output_index) {
@@ -124,7 +124,7 @@ uint64_t announced_triangles(std::span<const uint8_t> bytes) {
   ByteReader in(bytes);
   MeshHeader h;
   if (!read_header(in, "mesh header", h).ok()) return 0;
-  return draco_triangle_count(in.take(h.draco_bytes));
+  return connectivity_triangle_count(in.take(h.draco_bytes));
 }
 
 Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out) {

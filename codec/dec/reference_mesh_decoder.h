@@ -10,7 +10,7 @@
 
 namespace reeb {
 
-/// Triangles that the mesh's Draco section announces, for a look at the memory they will take; 0
+/// Triangles that the mesh's connectivity announces, for a look at the memory they will take; 0
 /// where the bytes make no sense.
 uint64_t announced_triangles(std::span<const uint8_t> bytes);
 

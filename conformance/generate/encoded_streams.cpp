@@ -223,7 +223,7 @@ void add_meshes(Maker& m) {
   EncodeOptions reorder = at(0.3);
   reorder.reorder = true;
   m.add("order_dropped", "The same mesh in coding order.", shuffled(torus(16, 11)), 4, reorder);
-  m.add("valence", "More than a thousand triangles: Draco's other traversal.", torus(36, 16), 2,
+  m.add("valence", "More than a thousand triangles: the other traversal.", torus(36, 16), 2,
         at(0.5));
 }
 

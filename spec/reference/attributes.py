@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from .arithmetic import clamp, f32
 from .attribute_chunks import BINARY32, FACE, FORMATS, RANGES, SHOT, TEXTURE_COORDINATE, VERTEX, read_body
 from .bytes import LARGEST_F32
-from .connectivity import NONE
+from .half_edges import NONE
 from .entropy import EVEN, AdaptiveBit, ExpGolomb, IntervalDecoder, SignedInteger
 from .errors import require
 from .fast import Walk

@@ -3,7 +3,7 @@ import math
 from bisect import bisect_left
 
 from .arithmetic import f32, floor_log2, product32, sum32
-from .connectivity import NONE, after, before, coding_order, edges_from
+from .half_edges import NONE, after, before, coding_order, edges_from
 from .errors import require
 from .lanes import LaneSection
 from .surface import STEPS, Distances, Row, make_row, set_step_indices

@@ -18,9 +18,9 @@ from .temporal import build_temporal_graph
 class Shot:
     """Step 2."""
 
-    def __init__(self, reference, draco_command):
+    def __init__(self, reference):
         self.reference = reference
-        mesh = decode_mesh(reference.mesh, draco_command)
+        mesh = decode_mesh(reference.mesh)
         self.faces = mesh.faces
         self.plain = mesh.plain_order is not None
         if self.plain:
@@ -125,9 +125,8 @@ class DecodedGroup:
 class Decoder:
     """Any frame of a file that container.read_file has read."""
 
-    def __init__(self, file, draco_command):
+    def __init__(self, file):
         self.file = file
-        self.draco_command = draco_command
         self.shots = {}
         self.groups = {}
         self.sites = {}  # of animated attributes
@@ -137,7 +136,7 @@ class Decoder:
         if number not in self.shots:
             reference = self.file.references.get(number)
             require(reference is not None, "the reference mesh is missing")
-            self.shots[number] = Shot(reference, self.draco_command)
+            self.shots[number] = Shot(reference)
         return self.shots[number]
 
     def group(self, number):

@@ -1,21 +1,16 @@
-"""reference_mesh.md: the coded mesh, sections 1 and 3 to 6."""
-import os
-import subprocess
-import tempfile
+"""reference_mesh.md: the coded mesh, sections 3 to 6."""
 from dataclasses import dataclass
 
 from .bytes import Reader
-from .connectivity import NONE, after, find_twins, join_triangles
+from .connectivity import decode_connectivity
 from .container import FACE_ORDER_KEPT, ORDER_KEPT, PLAIN, read_mesh_header
 from .entropy import EVEN, AdaptiveBit, ExpGolomb, IntervalDecoder, SignedInteger
 from .errors import Corrupt, Truncated, require
 from .fast import Order, Walk, decode_plain_order, decode_positions
 from .guesses import Guess, GuessMixture
+from .half_edges import NONE, after, find_twins, join_triangles
 from .order import arrange_faces, decode_order
 from .points import GRID_SIZE, PointDecoder
-
-DRACO_FRONT = bytes.fromhex("44 52 41 43 4F 02 02 01 01 00 00")
-DRACO_BACK = bytes(1)
 
 
 @dataclass
@@ -25,36 +20,6 @@ class Mesh:
     output: list  # output index of each coding vertex
     faces: list  # output indices of the corners of each face
     plain_order: Order = None  # rows of a plain mesh
-
-
-def decode_draco(section, most, command):
-    """Section 1: (number of points, triangles as a flat list of points)."""
-    if not section:
-        return 0, []
-    check_draco_counts(section, most)
-    with tempfile.NamedTemporaryFile(suffix=".drc", delete=False) as file:
-        file.write(DRACO_FRONT + section + DRACO_BACK)
-    try:
-        run = subprocess.run(command + [file.name], capture_output=True, text=True)
-    finally:
-        os.unlink(file.name)
-    require(run.returncode == 0, "Draco refuses the connectivity")
-    numbers = [int(word) for word in run.stdout.split()]
-    return numbers[0], numbers[1:]
-
-
-def check_draco_counts(section, most):
-    reader = Reader(section)
-    try:
-        traversal = reader.u8("traversal", 0, 2)
-        vertices, triangles = reader.uv(), reader.uv()
-        reader.u8("attribute tables", 0, 0)
-        symbols, splits = reader.uv(), reader.uv()
-    except Truncated:
-        raise Corrupt("the section draco ends early")
-    require(traversal != 1, "unknown traversal")
-    require(0 < vertices <= 3 * triangles and triangles <= most, "Draco's counts are impossible")
-    require(symbols <= triangles and splits <= symbols, "Draco's counts are impossible")
 
 
 class Rest:
@@ -166,7 +131,7 @@ class Rest:
             self.listed.append(face)
 
 
-def decode_mesh(data, draco_command):
+def decode_mesh(data):
     """A coded mesh."""
     reader = Reader(data)
     try:
@@ -178,7 +143,7 @@ def decode_mesh(data, draco_command):
     require(reader.remaining() == 0, "sections do not fill the mesh")
     most = 512 * len(data)
     require(max(header.vertex_count, header.face_count) <= most, "more vertices or faces than the bytes can hold")
-    point_count, triangles = decode_draco(draco, most, draco_command)
+    point_count, triangles = decode_connectivity(draco, most)
     parts = Rest(rest, header, point_count, triangles)
     vertex = parts.vertex_of_point
     coding_triangles = [[vertex[p] for p in triangles[i:i + 3]] for i in range(0, len(triangles), 3)]

@@ -1,7 +1,7 @@
 """reference_mesh.md sections 7 and 8: the output index of every coding vertex, and of every face."""
 import bisect
 
-from .connectivity import NONE, after, before, coding_order, edges_from, find_twins
+from .half_edges import NONE, after, before, coding_order, edges_from, find_twins
 from .entropy import IntervalDecoder, adaptive_bits
 from .guesses import Guess, GuessMixture
 

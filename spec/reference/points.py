@@ -2,7 +2,7 @@
 import math
 
 from .arithmetic import clamp
-from .connectivity import NONE, after, before, coding_order, edges_from, find_twins
+from .half_edges import NONE, after, before, coding_order, edges_from, find_twins
 from .guesses import Guess, GuessMixture
 
 GRID_SIZE = 65536

@@ -310,20 +310,20 @@ TEST_CASE("huge counts over few bytes are refused", "[reference]") {
   ReferenceMesh decoded;
   CHECK(decode_reference(bytes, {}, decoded).code() == StatusCode::kCorrupt);
 
-  Bytes draco = {2};
-  append_varuint(draco, 1u << 24);
-  append_varuint(draco, 1u << 25);
-  draco.push_back(0);
-  append_varuint(draco, 1u << 25);
-  append_varuint(draco, 0);
-  draco.resize(40);
+  Bytes section = {2};
+  append_varuint(section, 1u << 24);
+  append_varuint(section, 1u << 25);
+  section.push_back(0);
+  append_varuint(section, 1u << 25);
+  append_varuint(section, 0);
+  section.resize(40);
   h = {};
-  h.draco_bytes = draco.size();
+  h.draco_bytes = section.size();
   bytes.clear();
   REQUIRE(write_header(h, "mesh header", bytes).ok());
-  bytes.insert(bytes.end(), draco.begin(), draco.end());
+  bytes.insert(bytes.end(), section.begin(), section.end());
   const Status s = decode_reference(bytes, {}, decoded);
-  CHECK(s.message() == "connectivity: its counts are impossible");
+  CHECK(s.message() == "connectivity: more triangles than its bytes can hold");
 }
 
 TEST_CASE("meshes that cost nearly nothing are padded into the bound", "[reference]") {

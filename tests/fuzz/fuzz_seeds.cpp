@@ -1,11 +1,12 @@
 // Splits streams into first inputs for the fuzzers: fuzz_seeds FOLDER STREAM...
-// writes FOLDER/{container,decode,group,push,reference}/.
+// writes FOLDER/{connectivity,container,decode,group,push,reference}/.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "bitstream/container.h"
+#include "bitstream/syntax.h"
 
 namespace {
 
@@ -33,6 +34,13 @@ std::vector<uint8_t> group_input(const reeb::GroupChunk& group) {
   return out;
 }
 
+std::span<const uint8_t> connectivity_in(const reeb::ReferenceChunk& reference) {
+  reeb::ByteReader in(reference.mesh);
+  reeb::MeshHeader h;
+  return reeb::read_header(in, "mesh header", h).ok() ? in.take(h.draco_bytes)
+                                                      : std::span<const uint8_t>{};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -46,8 +54,10 @@ int main(int argc, char** argv) {
     if (!reader.parse(file, {}).ok()) return 1;
     write(folder / "container" / name, file);
     write(folder / "decode" / name, file);
-    for (const reeb::ReferenceChunk& r : reader.references)
+    for (const reeb::ReferenceChunk& r : reader.references) {
       write(folder / "reference" / (name + std::to_string(r.header.shot)), r.mesh);
+      write(folder / "connectivity" / (name + std::to_string(r.header.shot)), connectivity_in(r));
+    }
     std::vector<uint8_t> pushed = {7};
     pushed.insert(pushed.end(), file.begin(), file.end());
     write(folder / "push" / name, pushed);

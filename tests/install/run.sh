@@ -81,4 +81,4 @@ LD_LIBRARY_PATH=$(dirname "$library") expect "36 frames" "$work/pkg_player" "$st
 
 echo "== size of the decoder, stripped"
 strip -o "$work/stripped.so" "$library"
-echo "libreeb.so: $(stat -c %s "$work/stripped.so") bytes beside the shared libdraco"
+echo "libreeb.so: $(stat -c %s "$work/stripped.so") bytes"

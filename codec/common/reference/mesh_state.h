@@ -9,12 +9,12 @@
 
 namespace reeb {
 
-/// A *point* is a vertex of Draco's mesh; several points may be one vertex, where Draco split it.
+/// A *point* is what triangles of the edgebreaker share; several may be one vertex.
 struct MeshState {
   uint32_t vertex_count = 0;
   uint32_t face_count = 0;
   uint32_t point_count = 0;
-  std::vector<uint32_t> triangles;        ///< three points each, by Draco
+  std::vector<uint32_t> triangles;        ///< three points each, by the edgebreaker
   std::vector<int32_t> point_grid;        ///< [point][xyz]
   std::vector<uint32_t> vertex_of_point;  ///< coding numbering; rises by one at each new vertex
   std::vector<int32_t> grid;              ///< [coding vertex][xyz]
@@ -23,7 +23,7 @@ struct MeshState {
   Polygons listed;                        ///< all other faces, corners are coding vertices
 };
 
-/// Triangles of a complete state in coding numbering: Draco's, then the fans of the listed faces;
+/// Triangles of a complete state in coding numbering: those, then the fans of the listed faces;
 /// those with two equal corners are left out.
 std::vector<uint32_t> collect_triangles(const MeshState& state);
 

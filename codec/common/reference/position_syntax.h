@@ -12,7 +12,7 @@
 
 namespace reeb {
 
-/// Codes the positions of Draco's points, `topology` being that of their triangles.
+/// Codes the positions of points, `topology` being that of their triangles.
 template <class Coder>
 Status code_point_positions(Coder& coder, const TriangleTopology& topology, MeshState& s) {
   s.point_grid.resize(size_t{s.point_count} * 3);
@@ -32,7 +32,7 @@ Status code_point_positions(Coder& coder, const TriangleTopology& topology, Mesh
   return {};
 }
 
-/// Codes the positions of the vertices from `first` on, which are in no triangle of Draco's mesh;
+/// Codes the positions of the vertices from `first` on, which are no point;
 /// those before are in `grid` already.
 template <class Coder>
 Status code_loose_positions(Coder& coder, uint32_t first, uint32_t vertex_count,
@@ -50,8 +50,8 @@ Status code_loose_positions(Coder& coder, uint32_t first, uint32_t vertex_count,
   return {};
 }
 
-/// The whole section `rest` of a reference mesh. `topology`: of Draco's triangles; null for a
-/// plain mesh, which has its positions elsewhere: here all are (0, 0, 0).
+/// The whole section `rest` of a reference mesh. `topology`: of the edgebreaker's triangles; null
+/// for a plain mesh, which has its positions elsewhere: here all are (0, 0, 0).
 template <class Coder>
 Status code_rest(Coder& coder, const TriangleTopology* topology, MeshState& s,
                  uint64_t max_corners) {

@@ -17,7 +17,7 @@ inline constexpr int32_t kGridMax = 65535;
 inline constexpr uint64_t kElementsPerByte = 512;
 
 /// A decoded reference mesh. *Coding numbering* is the order in which the stream introduces
-/// vertices: those of Draco's mesh as Draco's decoder numbers them, then all others.
+/// vertices: points as the edgebreaker numbers them, then all others.
 struct ReferenceMesh {
   uint32_t vertex_count = 0;
   Connectivity connectivity;  ///< in output numbering; face order and first corners are free

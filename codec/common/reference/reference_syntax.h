@@ -1,4 +1,4 @@
-// Syntax of what Draco does not carry of a reference mesh, one function per part for both
+// Syntax of what an edgebreaker does not carry of a reference mesh, one function per part for both
 // directions: with an encoder the state is complete and is read, with a decoder it grows.
 #pragma once
 
@@ -145,7 +145,7 @@ class DiagonalSyntax {
   AdaptiveBit models_[81][3];
 };
 
-/// Faces that are not in Draco's mesh, corner by corner.
+/// Faces that are not among its triangles, corner by corner.
 class FaceListSyntax {
  public:
   /// Codes `count` faces over `vertex_count` vertices with at most `max_corners` corners in all.

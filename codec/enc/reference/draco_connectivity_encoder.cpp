@@ -42,13 +42,13 @@ bool encode_file(std::span<const uint32_t> triangles, uint32_t vertex_count, boo
 }
 
 // Cuts the constant front off, and the positions; false where they are not what they should be.
-bool cut_ends(const Bytes& file, Bytes& middle) {
+bool cut_ends(const Bytes& file, Bytes& section) {
   constexpr std::array<uint8_t, 20> kPositions = {1, 0xFF, 0, 1, 1, 0, 5, 3,    0, 0,
                                                   1, 0xFE, 1, 1, 3, 1, 1, 0x40, 1, 0};
   if (file.size() < kDracoFront.size() + kPositions.size()) return false;
   const auto begin = file.begin() + kDracoFront.size();
   const auto end = file.end() - kPositions.size();
-  middle.assign(begin, end);
+  section.assign(begin, end);
   return std::equal(kDracoFront.begin(), kDracoFront.end(), file.begin()) &&
          std::equal(kPositions.begin(), kPositions.end(), end);
 }
@@ -79,12 +79,12 @@ bool encode_draco_connectivity(std::span<const uint32_t> triangles, uint32_t ver
   if (vertex_count > static_cast<uint32_t>(std::numeric_limits<int32_t>::max())) return false;
   Bytes plain, numbered;
   if (!encode_file(triangles, vertex_count, false, plain) ||
-      !encode_file(triangles, vertex_count, true, numbered) || !cut_ends(plain, out.middle)) {
+      !encode_file(triangles, vertex_count, true, numbered) || !cut_ends(plain, out.section)) {
     return false;
   }
   constexpr uint32_t kAny = std::numeric_limits<uint32_t>::max();
   const Limits limits = {kAny, kAny, kAny, std::numeric_limits<uint64_t>::max()};
-  return decode_draco_connectivity(out.middle, limits, kAny, out.mesh).ok() &&
+  return decode_connectivity(out.section, limits, kAny, out.mesh).ok() &&
          read_vertex_numbers(numbered, out.vertex_of) &&
          out.vertex_of.size() == out.mesh.point_count;
 }

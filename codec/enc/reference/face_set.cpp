@@ -32,7 +32,8 @@ std::vector<uint32_t> FaceSet::regular() const {
   return out;
 }
 
-std::vector<uint32_t> FaceSet::owners(const std::vector<uint32_t>& faces, const DracoMesh& mesh,
+std::vector<uint32_t> FaceSet::owners(const std::vector<uint32_t>& faces,
+                                      const PointTriangles& mesh,
                                       const std::vector<uint32_t>& vertex_of) const {
   std::multimap<Cycle, uint32_t> fans;
   for (const uint32_t f : faces) {

@@ -8,7 +8,7 @@
 
 #include "codec/common/base/sequence.h"
 #include "codec/common/mesh/connectivity.h"
-#include "codec/dec/draco_connectivity.h"
+#include "codec/dec/connectivity/connectivity_decoder.h"
 
 namespace reeb {
 
@@ -25,7 +25,7 @@ class FaceSet {
   /// For each triangle of a decoded Draco mesh (`vertex_of`: our vertex of each point) the face of
   /// `faces` whose fan holds it, each fan triangle used once; the largest uint32 where there is
   /// none.
-  std::vector<uint32_t> owners(const std::vector<uint32_t>& faces, const DracoMesh& mesh,
+  std::vector<uint32_t> owners(const std::vector<uint32_t>& faces, const PointTriangles& mesh,
                                const std::vector<uint32_t>& vertex_of) const;
 
   /// Those of `faces` that `found` lacks, ascending; all of `faces` where `found` holds others.

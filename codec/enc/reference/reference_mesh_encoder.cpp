@@ -112,7 +112,7 @@ class Planner {
 
   // Marks the diagonals of the polygons and returns the faces (sorted) that would not come back.
   std::vector<uint32_t> find_lost(DracoPlan& plan) {
-    const DracoMesh& mesh = plan.encoding.mesh;
+    const PointTriangles& mesh = plan.encoding.mesh;
     plan.twins = pair_half_edges(mesh.triangles);
     const std::vector<uint32_t> owner = faces_.owners(plan.faces, mesh, plan.encoding.vertex_of);
     plan.diagonal.assign(mesh.triangles.size(), 0);
@@ -130,7 +130,7 @@ class Planner {
   FaceSet faces_;
 };
 
-// Numbers the vertices: those of Draco's points as they come, then the others as in the input.
+// Numbers the vertices: those of points as they come, then the others as in the input.
 std::vector<uint32_t> number_vertices(const Connectivity& input, const DracoEncoding& encoding) {
   std::vector<uint32_t> coding(input.vertex_count, kNone);
   uint32_t next = 0;
@@ -250,10 +250,10 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
                                           (keeps_faces ? MeshHeader::kFaceOrderKept : 0) |
                                           (options.plain ? MeshHeader::kPlain : 0));
   const MeshHeader header = {
-      state.vertex_count, state.face_count, flags,        plan.encoding.middle.size(),
+      state.vertex_count, state.face_count, flags,        plan.encoding.section.size(),
       rest.size(),        positions.size(), order.size(), faces.size()};
   if (Status s = write_header(header, "mesh header", bytes); !s.ok()) return s;
-  const std::vector<uint8_t>* const parts[] = {&plan.encoding.middle, &rest, &positions, &order,
+  const std::vector<uint8_t>* const parts[] = {&plan.encoding.section, &rest, &positions, &order,
                                                &faces};
   for (const auto* part : parts) bytes.insert(bytes.end(), part->begin(), part->end());
   return {};
