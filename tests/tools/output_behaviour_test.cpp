@@ -1,5 +1,6 @@
 // Where output goes: standard output, terminals, places that cannot be written.
 
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -69,6 +70,15 @@ class Terminal {
   int master_, slave_ = -1;
   std::thread reader_;
 };
+
+/// Until the other end of `pipe` has read all that is in it, two minutes at most.
+void wait_until_taken(int pipe) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  int waiting = 1;
+  while (::ioctl(pipe, FIONREAD, &waiting) == 0 && waiting > 0 &&
+         std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
 
 }  // namespace
 
@@ -203,11 +213,12 @@ TEST_CASE("an encoding whose folder has gone meanwhile is kept elsewhere") {
   const pid_t child = start_reeb({"encode", "-", "-o", files / "gone/x.reeb"}, fifo, "/dev/null",
                                  files / "err", [&] { ::setenv("TMPDIR", kept.c_str(), 1); });
   const int input = ::open(fifo.c_str(), O_WRONLY);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  while (std::filesystem::is_empty(files / "gone") && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(::write(input, stream.data(), 1) == 1);
+  wait_until_taken(input);  // and so the output, which is tried before that, is there
+  CHECK(!std::filesystem::is_empty(files / "gone"));
   std::filesystem::remove_all(files / "gone");
-  CHECK(::write(input, stream.data(), stream.size()) == static_cast<ssize_t>(stream.size()));
+  CHECK(::write(input, stream.data() + 1, stream.size() - 1) ==
+        static_cast<ssize_t>(stream.size() - 1));
   ::close(input);
   CHECK(exit_code_of(child) == kExitFailed);
   CHECK_THAT(read_text(files / "err"),
