@@ -16,7 +16,7 @@
 namespace reeb {
 
 struct FieldOptions {
-  WeightOptions weights;
+  WeightOptions weights = {};
   bool predict = true;    ///< along the surface; false codes the values as they are
   bool adaptive = false;  ///< re-estimate weights; false keeps those of the reference
   // Of an adaptive field:
