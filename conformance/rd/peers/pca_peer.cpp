@@ -29,7 +29,7 @@ struct Mesh {
   uint32_t vertex_count = 0;
 
   /// `united`: for every point of `mesh` the first one of the same vertex.
-  Mesh(const DracoMesh& mesh, const std::vector<uint32_t>& united, uint32_t isolated) {
+  Mesh(const PointTriangles& mesh, const std::vector<uint32_t>& united, uint32_t isolated) {
     std::vector<uint32_t> number(united.size());
     for (uint32_t p = 0; p < united.size(); ++p)
       number[p] = united[p] == p ? vertex_count++ : number[united[p]];
@@ -261,7 +261,7 @@ class PcaPeer : public Peer {
         Header{shot.frame_count, static_cast<uint32_t>(numbering.united.size()), numbering.isolated,
                static_cast<uint32_t>(found->reconstruction().basis.cols()),
                static_cast<float>(step)});
-    put_block(out.bytes, numbering.draco.middle);
+    put_block(out.bytes, numbering.draco.section);
     put_block(out.bytes, united.finish());
     put_block(out.bytes, found->finish());
     out.order = std::move(numbering.order);
@@ -270,9 +270,9 @@ class PcaPeer : public Peer {
 
   Status decode(std::span<const uint8_t> bytes, std::vector<float>& positions) override {
     const auto header = take<Header>(bytes);
-    DracoMesh draco;
+    PointTriangles draco;
     const Limits any;
-    if (Status s = decode_draco_connectivity(take_block(bytes), any, UINT32_MAX, draco); !s.ok())
+    if (Status s = decode_connectivity(take_block(bytes), any, UINT32_MAX, draco); !s.ok())
       return s;
     BinaryDecoder splits(take_block(bytes));
     std::vector<uint32_t> united(header.points);
