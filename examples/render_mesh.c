@@ -37,7 +37,7 @@ static int find(scene* s, reeb_semantic semantic, reeb_attribute* out) {
 }
 
 static size_t bytes_of(const reeb_attribute* a) {
-  const size_t number = a->type == REEB_TYPE_BINARY32 || a->type == REEB_TYPE_I32 ? 4
+  const size_t number = a->type == REEB_TYPE_BINARY32 || a->type == REEB_TYPE_I32         ? 4
                         : a->type == REEB_TYPE_U16 || a->type == REEB_TYPE_U16_NORMALISED ? 2
                                                                                           : 1;
   return number * a->channels;

@@ -1,4 +1,5 @@
-/* The headers in plain C99: every function of reeb.h once, some of reeb_attributes.h. Returns the line of the first surprise, or 0. */
+/* The headers in plain C99: every function of reeb.h once, some of reeb_attributes.h. Returns the
+ * line of the first surprise, or 0. */
 #include <reeb.h>
 #include <reeb_attributes.h>
 #include <stdlib.h>

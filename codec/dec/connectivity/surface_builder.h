@@ -62,7 +62,7 @@ class SurfaceBuilder {
   uint32_t triangles_ = 0, points_ = 0;
   std::vector<uint32_t> opposite_;  ///< the corner across each edge, kNone where the edge is free
   std::vector<uint32_t> point_;     ///< of each corner, as when it was made
-  std::vector<uint32_t> outer_;  ///< the corner of each point whose next one is a free edge
+  std::vector<uint32_t> outer_;     ///< the corner of each point whose next one is a free edge
   std::vector<uint32_t> became_;    ///< the point that each point became, or itself
   std::vector<uint32_t> degree_;
   std::vector<uint32_t> joined_;  ///< points that became others, in this order
