@@ -7,7 +7,7 @@
 #include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
-#include "tools/archive/stored_signature.h"
+#include "tools/archive/shape_source.h"
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/encoding_report.h"

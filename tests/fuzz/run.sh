@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 
 export seconds=${1:-60}
 export build=${2:-build-fuzz}
-fuzzers=(connectivity container decode group mesh_file push reference)
+fuzzers=(archive connectivity container decode group mesh_file push reference)
 
 run() {
   local name=$1 status=0

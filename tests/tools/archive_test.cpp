@@ -66,6 +66,16 @@ TEST_CASE("what is no archive is refused") {
   CHECK_FALSE(read_archive(folder / "none.json", out).ok());
 }
 
+TEST_CASE("lists in lists without end are no archive", "[hostile]") {
+  ShapeArchive out;
+  CHECK(parse_archive(std::string(1000000, '['), "x.json", out).code() == StatusCode::kCorrupt);
+  for (const char list_of_one : {'\x81', '\x9f'})
+    CHECK(parse_archive(std::string(1000000, list_of_one), "x.reebi", out).code() ==
+          StatusCode::kCorrupt);
+  CHECK(parse_archive("\x9b\x7f\xff\xff\xff\xff\xff\xff\xff", "x.reebi", out).code() ==
+        StatusCode::kCorrupt);
+}
+
 TEST_CASE("results are ranked by the frame that is most alike") {
   const auto results = search_archive(three_shapes(), signature_of(0.9f), RankBy::kAll, 2);
   REQUIRE(results.size() == 2);

@@ -44,6 +44,37 @@ bool from_json(const json& value, ArchivedFile& file) {
   return true;
 }
 
+// Refuses values that nest deeper than any of an archive: those of CBOR are read by recursion.
+class ShallowParser : public nlohmann::detail::json_sax_dom_parser<json> {
+ public:
+  using Base = nlohmann::detail::json_sax_dom_parser<json>;
+  explicit ShallowParser(json& root) : Base(root, true) {}
+
+  bool start_object(std::size_t size) { return enter() && Base::start_object(size); }
+  bool start_array(std::size_t size) { return enter() && Base::start_array(size); }
+  bool end_object() {
+    --depth_;
+    return Base::end_object();
+  }
+  bool end_array() {
+    --depth_;
+    return Base::end_array();
+  }
+
+ private:
+  bool enter() { return ++depth_ <= kMaxDepth; }
+
+  static constexpr int kMaxDepth = 8;
+  int depth_ = 0;
+};
+
+// False, or throws, where the bytes are none of the format.
+bool parse(std::string_view bytes, bool binary, json& root) {
+  ShallowParser parser(root);
+  return json::sax_parse(bytes, &parser,
+                         binary ? json::input_format_t::cbor : json::input_format_t::json);
+}
+
 Status not_an_archive(const std::filesystem::path& name) {
   return Status::corrupt(name.string() + ": not an archive of shapes; make one with reeb index");
 }
@@ -62,10 +93,14 @@ std::string write_archive(const ShapeArchive& archive, const std::filesystem::pa
 Status read_archive(const std::filesystem::path& name, ShapeArchive& out) {
   FileBytes file;
   if (Status status = FileBytes::read(name, file); !status.ok()) return status;
-  const std::string_view bytes = file.view();
+  return parse_archive(file.view(), name, out);
+}
+
+Status parse_archive(std::string_view bytes, const std::filesystem::path& name, ShapeArchive& out) {
   out = {};
   try {
-    const json root = is_binary(name) ? json::from_cbor(bytes) : json::parse(bytes);
+    json root;
+    if (!parse(bytes, is_binary(name), root)) return not_an_archive(name);
     if (root.at("format") != kFormat) return not_an_archive(name);
     if (root.at("version") != kVersion) {
       return {StatusCode::kUnsupported,

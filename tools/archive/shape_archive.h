@@ -26,6 +26,8 @@ struct ShapeArchive {
 /// JSON, or the same as CBOR (RFC 8949) where the name ends in .reebi.
 std::string write_archive(const ShapeArchive& archive, const std::filesystem::path& name);
 Status read_archive(const std::filesystem::path& name, ShapeArchive& out);
+/// The bytes of the file of that name.
+Status parse_archive(std::string_view bytes, const std::filesystem::path& name, ShapeArchive& out);
 
 struct SearchResult {
   size_t file = 0;

@@ -5,6 +5,7 @@
 
 #include "codec/common/mesh/faces.h"
 #include "tools/io/mesh_file.h"
+#include "tools/picture/contact_sheet.h"
 
 namespace reeb::tools {
 namespace {
@@ -78,6 +79,20 @@ ShapeFrame shape_frame(const Sequence& sequence, uint32_t frame) {
     frame -= shot.frame_count;
   }
   return {};
+}
+
+std::vector<SignedFrame> sign_frames(const Sequence& sequence, uint32_t count,
+                                     std::string& complaint) {
+  std::vector<SignedFrame> frames;
+  for (const uint32_t frame : spread_frames(sequence.frame_count(), count)) {
+    const ShapeFrame shape = shape_frame(sequence, frame);
+    retrieval::Signed result = retrieval::sign(shape.positions, shape.triangles);
+    if (!result.signature.empty())
+      frames.push_back({frame + 1, std::move(result.signature)});
+    else
+      complaint = result.warnings.back();
+  }
+  return frames;
 }
 
 }  // namespace reeb::tools

@@ -9,6 +9,7 @@
 
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
+#include "tools/archive/stored_signature.h"
 
 namespace reeb::tools {
 
@@ -24,5 +25,10 @@ struct ShapeFrame {
   std::vector<uint32_t> triangles;
 };
 ShapeFrame shape_frame(const Sequence& sequence, uint32_t frame);
+
+/// Signs at most `count` frames (at least 1) spread over the sequence. `complaint` says why there
+/// is none where none could be signed.
+std::vector<SignedFrame> sign_frames(const Sequence& sequence, uint32_t count,
+                                     std::string& complaint);
 
 }  // namespace reeb::tools

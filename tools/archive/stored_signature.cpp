@@ -3,9 +3,6 @@
 #include <charconv>
 #include <sstream>
 
-#include "tools/archive/shape_source.h"
-#include "tools/picture/contact_sheet.h"
-
 namespace reeb::tools {
 namespace {
 
@@ -35,20 +32,6 @@ bool parse_signature(const std::string& text, retrieval::Signature& out) {
     bytes.push_back(static_cast<uint8_t>(16 * high + low));
   }
   return retrieval::from_bytes(bytes, out) && !out.empty();
-}
-
-std::vector<SignedFrame> sign_frames(const Sequence& sequence, uint32_t count,
-                                     std::string& complaint) {
-  std::vector<SignedFrame> frames;
-  for (const uint32_t frame : spread_frames(sequence.frame_count(), count)) {
-    const ShapeFrame shape = shape_frame(sequence, frame);
-    retrieval::Signed result = retrieval::sign(shape.positions, shape.triangles);
-    if (!result.signature.empty())
-      frames.push_back({frame + 1, std::move(result.signature)});
-    else
-      complaint = result.warnings.back();
-  }
-  return frames;
 }
 
 std::string stored_signatures(const std::vector<SignedFrame>& frames) {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "codec/common/base/sequence.h"
 #include "retrieval/signature.h"
 
 namespace reeb::tools {
@@ -22,11 +21,6 @@ inline constexpr const char* kSignatureKey = "shape signature";
 std::string signature_text(const retrieval::Signature& signature);
 /// False where it is none, or one of a mesh without a surface.
 bool parse_signature(const std::string& text, retrieval::Signature& out);
-
-/// Signs at most `count` frames (at least 1) spread over the sequence. `complaint` says why there
-/// is none where none could be signed.
-std::vector<SignedFrame> sign_frames(const Sequence& sequence, uint32_t count,
-                                     std::string& complaint);
 
 /// Value of the metadata entry, and back; false where it is none.
 std::string stored_signatures(const std::vector<SignedFrame>& frames);
