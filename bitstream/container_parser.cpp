@@ -4,6 +4,7 @@
 
 #include "bitstream/bytes.h"
 #include "bitstream/crc32c.h"
+#include "bitstream/element_bound.h"
 #include "bitstream/syntax.h"
 
 namespace reeb {
@@ -34,12 +35,6 @@ bool is_trailer(std::span<const uint8_t> bytes) {
 
 bool read_whole_payload(const ChunkType& type) {
   return type == kMetadataChunk || type == kSeekChunk || type == kBoundsChunk;
-}
-
-uint64_t section_bytes(const GroupHeader& h) {
-  uint64_t sum = 0;
-  for (const GroupSection& s : kGroupSections) sum += h.*s.bytes;
-  return sum;
 }
 
 }  // namespace

@@ -206,7 +206,8 @@ def work(data):
                 total += 5 * vertices + vertices * vertices // 500
             elif kind == b"GRUP":
                 h = read_group(payload)
-                total += vertices * h["component_count"] + 3 * h["frame_count"] * (h["component_count"] + 1)
+                planes = h["component_count"] if "component_count" in h else 3 * h["stored_count"]
+                total += vertices * planes + 3 * h["frame_count"] * (planes + 1)
         except IndexError:
             return 0
     return total
@@ -386,6 +387,15 @@ def add_headers(m):
             ("one_continues", "The same beside one that continues another profile.", 2, dict(flags=b"\1")),
             ("one_is_weak", "The same beside one of a weak prior.", 2, dict(flags=b"\x08"))):
         m.add(name, "corrupt", sentence, mixed.edited(b"GRUP", which, **changes))
+    for name, section, sentence in (
+            ("planes_beyond_bytes", "coefficients", "Planes of more values than the group's bytes can hold."),
+            ("frames_beyond_bytes", "differences", "Coded frames of more coordinates than the group's bytes can hold.")):
+        full = File(m.sound({"coefficients": "full_planes", "differences": "lossless_full"}[section]))
+        zeros = read_group(full.chunks[2][1])[section]
+        m.add(name, "corrupt", sentence, full.edited(b"GRUP", **{section: zeros[:-2]}))
+    many = File(m.sound("one_vertex"))
+    m.add("corrections_beyond_bytes", "corrupt", "More corrections than the group's bytes can hold, whose section is not read.",
+          many.edited(b"GRUP", flags=b"\2" + f64(1.0) + uv(1 << 20) + uv(0)))
     exact = File(m.sound("lossless_shots"))
     m.add("one_lossless_of_none", "corrupt", "A lossless group of no coded frames; the others decode.",
           exact.edited(b"GRUP", 1, stored_count=0))

@@ -21,6 +21,10 @@ struct DecodedSurface {
   float grid_step = 0;           ///< world units
 };
 
+/// Whether the bytes of a group on so many vertices can hold what its header announces; to be asked
+/// before memory is set aside for it.
+Status check_elements(const GroupHeader& header, uint64_t vertices);
+
 /// Decodes a group. One that continues another needs the state which that one left; with `keep`,
 /// `state` is then what this group leaves, otherwise it is used up. kCancelled soon after `stop` is
 /// requested.

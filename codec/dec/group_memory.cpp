@@ -42,6 +42,10 @@ uint64_t stored_memory(uint64_t vertices, const GroupHeader& h) {
          2 * sizeof(uint32_t) * h.frame_count;
 }
 
+uint64_t corrections_memory(const GroupHeader& h) {
+  return h.frame_count * sizeof(uint32_t) + Corrections::kEntryBytes * h.correction_count;
+}
+
 template <class T, class Allocator>
 uint64_t bytes_of(const std::vector<T, Allocator>& v) {
   return v.capacity() * sizeof(T);
@@ -63,9 +67,10 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
                                         uint64_t{h.region_count} * sizeof(MotionModel::Transform));
   const bool corrected = h.correction_count > 0;
-  const uint64_t corrections = corrected ? CorrectionField::memory(vertices, h.frame_count) +
-                                               2 * Corrections::kEntryBytes * h.correction_count
-                                         : 0;
+  const uint64_t corrections =
+      corrected ? CorrectionField::memory(vertices, h.frame_count, h.correction_count) +
+                      corrections_memory(h)
+                : 0;
   return surface + basis + motion + corrections + stored_memory(vertices, h);
 }
 
@@ -86,9 +91,8 @@ uint64_t kept_memory(uint64_t vertices, const GroupHeader& h) {
   const uint64_t planes =
       h.component_count * (4 * (vertices + kTileRows) + sizeof(std::vector<float>));
   const uint64_t times = 3 * uint64_t{h.frame_count} * (4 * uint64_t{h.component_count} + 8);
-  const uint64_t corrections = h.frame_count * sizeof(std::vector<float>) +
-                               2 * Corrections::kEntryBytes * h.correction_count;
-  return sizeof(GroupSynthesis) + planes + times + corrections + stored_memory(vertices, h);
+  return sizeof(GroupSynthesis) + planes + times + corrections_memory(h) +
+         stored_memory(vertices, h);
 }
 
 uint64_t kept_memory(const Connectivity& c) { return bytes_of(c.face_sizes) + bytes_of(c.corners); }

@@ -62,15 +62,19 @@ GroupSynthesis join_fields(const GroupTask& task, Planes planes, const Planes& b
 Status decode_corrections(const GroupTask& task, GroupSynthesis& out) {
   const GroupHeader& h = task.header();
   if (h.correction_count > 0) {
-    Corrections corrections(h.frame_count, h.correction_step);
-    CorrectionField field(task.surface().graph, h.frame_count);
+    if (h.correction_count > Corrections::kMaxCount)
+      return Status::limit("more corrections than a decoder takes");
+    Corrections corrections(h.frame_count, h.correction_step, h.correction_count);
+    CorrectionField field(task.surface().graph, h.frame_count, h.correction_count);
     BinaryDecoder decoder(task.chunk.corrections);
     uint64_t count = 0;
     const bool in_range = field.code(
         decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
         [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
+          if (!std::isfinite(c.value) || ++count > h.correction_count || decoder.overrun())
+            return false;
           corrections.add(task.decoded.output[row], t, axis, c);
-          return std::isfinite(c.value) && ++count <= h.correction_count && !decoder.overrun();
+          return true;
         });
     if (!in_range || count != h.correction_count || decoder.overrun())
       return Status::corrupt("the correction section is damaged");

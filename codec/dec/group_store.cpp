@@ -144,6 +144,7 @@ Status GroupStore::decode_one(const GroupChunk& wanted, const Job& job, bool kee
   }
   const DecodedSurface& surface = group->shot->surface;
   const uint64_t vertices = surface.output.size();
+  if (Status s = check_elements(wanted.header, vertices); !s.ok()) return s;
   const uint64_t kept = kept_memory(vertices, wanted.header);
   const uint64_t learned = keep && state.lease.bytes() == 0 ? state_memory(vertices) : 0;
   const uint64_t all = group_memory(vertices, wanted.header) + wanted.size;

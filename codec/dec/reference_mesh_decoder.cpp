@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bitstream/bytes.h"
+#include "bitstream/element_bound.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/fast/plain_order.h"
@@ -36,7 +37,7 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
   sections.order = in.take(h.order_bytes);
   sections.faces = in.take(h.face_bytes);
   if (!in.ok() || in.remaining() != 0) return Status::corrupt("mesh: sections do not fill it");
-  if (std::max(h.vertex_count, h.face_count) > kElementsPerByte * bytes.size()) {
+  if (std::max(h.vertex_count, h.face_count) > kMeshElementsPerByte * bytes.size()) {
     return Status::corrupt("mesh: more vertices or faces than its bytes can hold");
   }
   if (h.vertex_count > limits.max_vertices) return Status::limit("mesh: too many vertices");
@@ -44,19 +45,19 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
   return {};
 }
 
-Status decode_state(const Sections& sections, const Limits& limits, uint64_t max_triangles,
-                    bool plain, MeshState& state, std::optional<TriangleTopology>& topology) {
+/// `most`: triangles by edgebreaker, and corners of listed faces, that the bytes can hold.
+Status decode_state(const Sections& sections, const Limits& limits, uint64_t most, bool plain,
+                    MeshState& state, std::optional<TriangleTopology>& topology) {
   if (!sections.draco.empty()) {
     PointTriangles mesh;
-    if (Status s = decode_connectivity(sections.draco, limits, max_triangles, mesh); !s.ok())
-      return s;
+    if (Status s = decode_connectivity(sections.draco, limits, most, mesh); !s.ok()) return s;
     state.point_count = mesh.point_count;
     state.triangles = std::move(mesh.triangles);
   }
   if (!plain) topology.emplace(state.point_count, state.triangles);
   IntervalDecoder coder(sections.rest);
   return code_rest(coder, plain ? nullptr : &*topology, state,
-                   kMaxCornersPerFace * limits.max_faces);
+                   {kMaxCornersPerFace * limits.max_faces, most});
 }
 
 Status decode_plain_positions(std::span<const uint8_t> bytes, const MeshWalk& walk,
@@ -136,9 +137,9 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   state.vertex_count = h.vertex_count;
   state.face_count = h.face_count;
   out.plain = (h.flags & MeshHeader::kPlain) != 0;
-  const uint64_t max_triangles = kElementsPerByte * bytes.size();
+  const uint64_t most = kMeshElementsPerByte * bytes.size();
   std::optional<TriangleTopology> topology;
-  if (Status s = decode_state(sections, limits, max_triangles, out.plain, state, topology); !s.ok())
+  if (Status s = decode_state(sections, limits, most, out.plain, state, topology); !s.ok())
     return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);

@@ -293,6 +293,19 @@ void add_profiles(Maker& m) {
         6, with(at(0.3), Profile::kThesis, 4), fold);
 }
 
+/// Many vertices at one place, which stay there, and one that does not.
+Shape one_of_many() {
+  Shape s{.name = "one of many", .connectivity = {}, .positions = {}};
+  s.add_vertex(1, 0, 0);
+  for (uint32_t v = 0; v < 4000; ++v) s.add_vertex(0, 0, 0);
+  return s;
+}
+
+void nudge(const float* rest, double time, double* xyz) {
+  for (int a = 0; a < 3; ++a) xyz[a] = static_cast<double>(rest[a]);
+  if (xyz[0] > 0.5) xyz[1] += std::floor(8 * time) / 8;
+}
+
 void add_lossless(Maker& m) {
   EncodeOptions exact = at(1);
   exact.target = Target::kLossless;
@@ -306,6 +319,9 @@ void add_lossless(Maker& m) {
   m.add("lossless_holds", "Each pose for three frames.", torus(6, 5), 12, exact, hold);
   m.add("lossless_still", "Nothing moves.", torus(8, 6), 5, exact, rest);
   m.add("lossless_parts", "One half never moves.", torus(12, 8), 8, exact, wag);
+  m.add("lossless_full",
+        "Coded frames that hardly differ, as many as the bytes of the group can hold.",
+        one_of_many(), 6, exact, nudge);
   m.add("lossless_points", "No faces.", points_only(40), 4, exact);
   EncodeOptions quick = exact;
   quick.effort = 1;

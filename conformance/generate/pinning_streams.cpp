@@ -174,6 +174,32 @@ Bytes clumps(uint32_t of_seven, uint32_t of_nine) {
   return build_file(build_listed_mesh(s.connectivity, on_grid(s, 5)), plain_group(1, 1));
 }
 
+/// A strip with every triangle twice, of which a sweep takes out no more than its ends.
+Shape doubled_strip(uint32_t vertices) {
+  Shape s{.name = "strip", .connectivity = {}, .positions = {}};
+  for (uint32_t v = 0; v < vertices; ++v)
+    s.add_vertex(static_cast<float>(v / 2), static_cast<float>(v % 2), 0);
+  for (uint32_t v = 0; v + 2 < vertices; ++v) {
+    s.add_face({v, v + 1, v + 2});
+    s.add_face({v, v + 1, v + 2});
+  }
+  return s;
+}
+
+/// Every vertex in triangles with the five before and after it, of which a sweep takes out no more
+/// than the ends where positions do not count.
+Shape band(uint32_t vertices) {
+  Shape s{.name = "band", .connectivity = {}, .positions = {}};
+  for (uint32_t v = 0; v < vertices; ++v)
+    s.add_vertex(static_cast<float>(v % 20), static_cast<float>(v / 20), 0);
+  for (uint32_t v = 0; v + 5 < vertices; ++v) {
+    s.add_face({v, v + 1, v + 5});
+    s.add_face({v, v + 2, v + 4});
+    s.add_face({v, v + 3, v + 5});
+  }
+  return s;
+}
+
 /// A fan whose middle has `spokes` triangles, with a ring of triangles around it.
 Shape wheel(uint32_t spokes) {
   Shape s = hub(spokes);
@@ -212,6 +238,11 @@ std::vector<int32_t> far_places(uint32_t vertices) {
 void add_bounds(Maker& m) {
   m.add("clumps_399", "Collapses that go on: one vertex of 400 is taken out.", clumps(54, 2));
   m.add("clumps_400", "Collapses that stop: one vertex of 401 is taken out.", clumps(49, 6));
+  const Shape strip = doubled_strip(300);
+  m.add("slow_collapses", "Collapses that stop when every vertex could have been tried 32 times.",
+        build_file(build_listed_mesh(strip.connectivity, on_grid(strip, 8)), plain_group(1, 1)));
+  m.add("fast_slow_contraction", "The same in the fast profile.",
+        build_fast(plain_group(1, 2), plain_mesh_of(band(300), 8)));
   m.add("wheel", "A surface around a vertex of 257 triangles.",
         build_file(mesh_of(wheel(257)), plain_group(1, 1)));
   const Shape many = star(300);
@@ -281,6 +312,10 @@ void add_fields(Maker& m) {
   thesis.coefficient_section = random_bytes(41, 1500);
   shorten(thesis.coefficient_section, [&] { return build_file(mesh, thesis); });
   m.add("thesis_noise", "Random bytes in the thesis profile.", build_file(mesh, thesis));
+  BuiltGroup full = plain_group(60, 180);
+  full.coefficients = full.basis = none;
+  m.add("full_planes", "Planes of zeros, as many as the bytes of the group can hold.",
+        build_file(mesh, full));
   BuiltGroup wide = plain_group(2, 6);
   wide.coefficients = [](uint32_t, uint32_t row) { return row == 0 ? 400 : 0; };
   wide.basis = [](uint32_t k, uint32_t row) { return k > 0 && row < 3 ? 700 - 9 * int64_t{k} : 0; };

@@ -9,6 +9,7 @@
 
 #include "bitstream/bytes.h"
 #include "bitstream/chunk.h"
+#include "bitstream/element_bound.h"
 #include "bitstream/syntax.h"
 #include "codec/common/fast/lane_field.h"
 #include "codec/common/motion/motion_syntax.h"
@@ -151,7 +152,7 @@ BuiltMesh build_listed_mesh(const Connectivity& connectivity, std::span<const in
   state.listed = {connectivity.face_sizes, connectivity.corners};
   IntervalEncoder coder;
   const TriangleTopology no_triangles(0, {});
-  require(code_rest(coder, &no_triangles, state, std::numeric_limits<uint64_t>::max()));
+  require(code_rest(coder, &no_triangles, state, {}));
   const Bytes rest = coder.finish();
   const Bytes order = order_kept ? code_order_as_is(state) : Bytes{};
   MeshHeader header = {.vertex_count = state.vertex_count, .face_count = state.face_count};
@@ -216,8 +217,11 @@ void FileBuilder::reference(const ReferenceHeader& header, const BuiltMesh& mesh
 
 void FileBuilder::group(const BuiltMesh& mesh, BuiltGroup group) {
   build_sections(mesh, group);
-  require(writer_.group(group.header, {group.motion_section, group.coefficient_section,
-                                       group.basis_section, group.correction_section}));
+  const GroupSections sections = {group.motion_section, group.coefficient_section,
+                                  group.basis_section, group.correction_section};
+  Bytes padded;
+  require(writer_.group(group.header,
+                        within_element_bound(group.header, mesh.rows(), sections, padded)));
 }
 
 void FileBuilder::metadata(const std::vector<MetadataEntry>& entries) {

@@ -98,6 +98,10 @@ class Group:
     differences: bytes = b""
     raw: bytes = b""
 
+    def section_bytes(self):
+        sections = (self.motion, self.coefficients, self.basis, self.corrections, self.differences, self.raw)
+        return sum(len(section) for section in sections)
+
 
 @dataclass
 class File:

@@ -26,7 +26,9 @@ class Contraction:
         self.isolated = [v for v in range(vertex_count) if not self.N[v]]
         self.alive = [v for v in range(vertex_count) if self.N[v]]
         self.removed = []  # (vertex, ring, far)
-        while len(self.alive) > 64:
+        tries = 32 * len(self.alive)
+        while 64 < len(self.alive) <= tries:
+            tries -= len(self.alive)
             removed = self.sweep()
             if removed < max(1, len(self.alive) // 200):
                 break

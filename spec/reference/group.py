@@ -57,7 +57,7 @@ def decode_part(payload, part, shot):
     return DecodedGroup(group, shot)
 
 
-def check_group(group):
+def check_group(group, vertex_count):
     """container.md 3.3."""
     coordinates = 3 * group.frame_count
     thesis = group.profile == THESIS
@@ -70,13 +70,23 @@ def check_group(group):
     require(may_be_weak or not group.flags & WEAK_PRIOR, "a weak prior where no weights start")
     unused = (group.region_count == 0 and group.motion) or (thesis and group.basis)
     require(not unused, "a section is there that the group does not use")
+    require(elements(group, vertex_count) <= 512 * (32 + group.section_bytes()), "more than the bytes can hold")
+
+
+def elements(group, vertex_count):
+    coordinates = 3 * group.frame_count
+    if group.profile == LOSSLESS:
+        return vertex_count * (3 * group.stored_count + 1) + coordinates
+    planes = group.component_count + 1
+    return ((vertex_count + coordinates) * planes + 12 * group.region_count * group.component_count
+            + 8 * group.correction_count)
 
 
 class DecodedGroup:
     """Step 3. before: the group that this one continues."""
 
     def __init__(self, group, shot, before=None):
-        check_group(group)
+        check_group(group, len(shot.rows))
         require(group.profile == FAST or not shot.plain, "plain meshes are those of the fast profile")
         self.coefficients = self.basis = None
         if group.profile == LOSSLESS:

@@ -25,7 +25,7 @@ class Mesh:
 class Rest:
     """The section *rest*, section 2 of the chapter."""
 
-    def __init__(self, data, header, point_count, triangles):
+    def __init__(self, data, header, point_count, triangles, most_corners):
         self.decoder = IntervalDecoder(data)
         self.header = header
         self.triangles = triangles
@@ -45,7 +45,7 @@ class Rest:
         if not self.plain:
             self.decode_loose_vertices()
         self.listed = []
-        self.decode_listed_faces()
+        self.decode_listed_faces(most_corners)
         self.decoder.check()
 
     def decode_split_points(self):
@@ -116,14 +116,17 @@ class Rest:
             self.decoder.check()
             self.grid.append(tuple(position))
 
-    def decode_listed_faces(self):
+    def decode_listed_faces(self, most_corners):
         """Section 6."""
         require(self.header.face_count >= len(self.polygons), "fewer faces than polygons")
         size, step = ExpGolomb(), SignedInteger()
-        corner = 0
+        corner = corners = 0
         for _ in range(self.header.face_count - len(self.polygons)):
             face = []
-            for _ in range(size.decode(self.decoder) + 1):
+            count = size.decode(self.decoder) + 1
+            corners += count
+            require(corners <= most_corners, "more face corners than the bytes can hold")
+            for _ in range(count):
                 corner += step.decode(self.decoder)
                 require(0 <= corner < self.header.vertex_count, "a listed face has no such vertex")
                 self.decoder.check()
@@ -141,10 +144,10 @@ def decode_mesh(data):
     except Truncated:
         raise Corrupt("the mesh's sections do not fit")
     require(reader.remaining() == 0, "sections do not fill the mesh")
-    most = 512 * len(data)
+    most = 64 * len(data)
     require(max(header.vertex_count, header.face_count) <= most, "more vertices or faces than the bytes can hold")
     point_count, triangles = decode_connectivity(draco, most)
-    parts = Rest(rest, header, point_count, triangles)
+    parts = Rest(rest, header, point_count, triangles, most)
     vertex = parts.vertex_of_point
     coding_triangles = [[vertex[p] for p in triangles[i:i + 3]] for i in range(0, len(triangles), 3)]
     for face in parts.listed:

@@ -51,7 +51,9 @@ class Collapser:
         self.removed = []  # (vertex, ring, far), the first removed first
 
     def run(self):
-        while len(self.alive) > 64:
+        tries = 32 * len(self.alive)
+        while 64 < len(self.alive) <= tries:
+            tries -= len(self.alive)
             removed = self.sweep()
             if removed < max(1, len(self.alive) // 200):
                 break

@@ -73,7 +73,8 @@ class Contraction {
     for (uint32_t v = 0; v < none_; ++v) (valence_[v].size == 0 ? isolated : alive_).push_back(v);
     out_.graph.rows.resize(none_);
     first_free_ = static_cast<uint32_t>(alive_.size());
-    while (alive_.size() > kBaseSize) {
+    TryBudget budget(alive_.size());
+    while (alive_.size() > kBaseSize && budget.take(alive_.size())) {
       const size_t before = alive_.size();
       run_sweep();
       if (!worth_another_sweep(before - alive_.size(), alive_.size())) break;

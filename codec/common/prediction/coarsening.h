@@ -17,4 +17,21 @@ constexpr bool worth_another_sweep(size_t removed, size_t left) {
   return removed >= std::max<size_t>(1, left / kMinProgress);
 }
 
+/// Keeps all sweeps together linear in the mesh: hostile meshes lose few vertices in each.
+class TryBudget {
+ public:
+  explicit TryBudget(size_t vertices) : left_(kTriesPerVertex * vertices) {}
+
+  /// For a sweep that tries so many vertices; false where that is more than there is left.
+  constexpr bool take(size_t tried) {
+    if (tried > left_) return false;
+    left_ -= tried;
+    return true;
+  }
+
+ private:
+  static constexpr size_t kTriesPerVertex = 32;  ///< real meshes take six
+  size_t left_;
+};
+
 }  // namespace reeb

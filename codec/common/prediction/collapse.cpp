@@ -104,7 +104,8 @@ class Collapser {
     for (uint32_t v = 0; v < points_.size(); ++v)
       (mesh_.valence(v) == 0 ? out.isolated : alive_).push_back(v);
     out.collapses.reserve(alive_.size());
-    while (alive_.size() > kBaseSize) {
+    TryBudget budget(alive_.size());
+    while (alive_.size() > kBaseSize && budget.take(alive_.size())) {
       const size_t removed = run_sweep(out.collapses);
       if (!worth_another_sweep(removed, alive_.size())) break;
     }

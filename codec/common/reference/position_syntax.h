@@ -54,7 +54,7 @@ Status code_loose_positions(Coder& coder, uint32_t first, uint32_t vertex_count,
 /// for a plain mesh, which has its positions elsewhere: here all are (0, 0, 0).
 template <class Coder>
 Status code_rest(Coder& coder, const TriangleTopology* topology, MeshState& s,
-                 uint64_t max_corners) {
+                 const MostCorners& most) {
   if (topology == nullptr) {
     s.point_grid.assign(size_t{s.point_count} * 3, 0);
   } else if (Status status = code_point_positions(coder, *topology, s); !status.ok()) {
@@ -75,7 +75,7 @@ Status code_rest(Coder& coder, const TriangleTopology* topology, MeshState& s,
              !status.ok()) {
     return status;
   }
-  return FaceListSyntax().code(coder, listed, s.vertex_count, max_corners, s.listed);
+  return FaceListSyntax().code(coder, listed, s.vertex_count, most, s.listed);
 }
 
 }  // namespace reeb

@@ -12,10 +12,6 @@ namespace reeb {
 /// Largest position on the grid, per axis.
 inline constexpr int32_t kGridMax = 65535;
 
-/// Vertices, faces and triangles that one byte of a coded mesh may stand for at most. Real meshes
-/// stay far below; the encoder pads what does not.
-inline constexpr uint64_t kElementsPerByte = 512;
-
 /// A decoded reference mesh. *Coding numbering* is the order in which the stream introduces
 /// vertices: points as the edgebreaker numbers them, then all others.
 struct ReferenceMesh {

@@ -145,19 +145,28 @@ class DiagonalSyntax {
   AdaptiveBit models_[81][3];
 };
 
+/// How many corners the listed faces may have: more than `by_limits` exceed a limit, more than
+/// `by_bytes` are corrupt.
+struct MostCorners {
+  uint64_t by_limits = UINT64_MAX;
+  uint64_t by_bytes = UINT64_MAX;
+};
+
 /// Faces that are not among its triangles, corner by corner.
 class FaceListSyntax {
  public:
-  /// Codes `count` faces over `vertex_count` vertices with at most `max_corners` corners in all.
+  /// Codes `count` faces over `vertex_count` vertices with at most `most` corners in all.
   template <class Coder>
-  Status code(Coder& coder, uint32_t count, uint32_t vertex_count, uint64_t max_corners,
+  Status code(Coder& coder, uint32_t count, uint32_t vertex_count, const MostCorners& most,
               Polygons& faces) {
     uint32_t last = 0;
     size_t corner = 0;
     for (uint32_t f = 0; f < count; ++f) {
       uint32_t& size = slot(faces.sizes, f);
       size = size_.code(coder, size - 1) + 1;
-      if (size > max_corners - corner) return Status::limit("mesh: too many face corners");
+      if (size > most.by_limits - corner) return Status::limit("mesh: too many face corners");
+      if (size > most.by_bytes - corner)
+        return Status::corrupt("mesh: more face corners than its bytes can hold");
       for (uint32_t i = 0; i < size; ++i, ++corner) {
         uint32_t& v = slot(faces.corners, corner);
         const int64_t value = int64_t{last} + step_.code(coder, static_cast<int32_t>(v - last));

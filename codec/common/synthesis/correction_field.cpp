@@ -36,62 +36,77 @@ uint32_t signed_class(int value) { return static_cast<uint32_t>(std::clamp(value
 
 }  // namespace
 
-CorrectionField::CorrectionField(const PredictionGraph& graph, uint32_t frames)
+CorrectionField::CorrectionField(const PredictionGraph& graph, uint32_t frames, uint64_t count)
     : graph_(graph),
       frames_(frames),
       row_size_(size_t{3} * (frames + kMargin)),
-      value_(row_size_ * graph.size(), 0),
-      is_active_(graph.size(), 0),
-      density_(graph.size(), 0),
       frame_rate_(row_size_, 1 << 10),
+      own_(row_size_, 0),
       near_size_(row_size_),
       near_sum_(row_size_),
       near_class_(row_size_),
       zero_(kZeroEntries, 3, kLimit),
-      sign_(kSignEntries, 1, kLimit) {}
+      sign_(kSignEntries, 1, kLimit) {
+  coded_.reserve(static_cast<size_t>(count) + 1);  // one more is met before it is refused
+  first_.reserve(size_t{graph.size()} + 1);
+  first_.push_back(0);
+  density_.reserve(graph.size());
+}
 
 void CorrectionField::begin_row(uint32_t row) {
   const PredictionGraph::Row& r = graph_.rows[row];
-  std::fill(near_size_.begin(), near_size_.end(), uint8_t{0});
-  std::fill(near_sum_.begin(), near_sum_.end(), int8_t{0});
   uint32_t density = 0;
   uint32_t active = 0;
   uint32_t weight = 0;
   for (uint32_t i = 0; i < r.count; ++i) {
     const uint32_t share = i < r.ring ? 2 : 1;
     weight += share;
-    if (is_active_[r.neighbour[i]] == 0) continue;
+    if (!has_some(r.neighbour[i])) continue;
     active += share;
     density += share * density_[r.neighbour[i]];
-    const int8_t* values = row_values(r.neighbour[i]);
-    for (size_t at = 0; at < row_size_; ++at) {
-      near_size_[at] = static_cast<uint8_t>(near_size_[at] + share * size_of(values[at]));
-      near_sum_[at] = static_cast<int8_t>(near_sum_[at] + static_cast<int>(share) * values[at]);
+  }
+  row_rate_ = weight > 0 ? density / weight : 0;
+  near_density_ = rate_class(row_rate_);
+  row_rate_ = std::max(row_rate_, 256u);
+  const bool last_active = row > 0 && has_some(row - 1);
+  active_context_ =
+      (weight > 0 ? (4 * active + weight - 1) / weight : 2) * 2 + (last_active ? 1 : 0);
+}
+
+void CorrectionField::look_around(uint32_t row) {
+  const PredictionGraph::Row& r = graph_.rows[row];
+  std::fill(own_.begin(), own_.end(), int8_t{0});
+  std::fill(near_size_.begin(), near_size_.end(), uint8_t{0});
+  std::fill(near_sum_.begin(), near_sum_.end(), int8_t{0});
+  uint32_t weight = 0;
+  for (uint32_t i = 0; i < r.count; ++i) {
+    const int share = i < r.ring ? 2 : 1;
+    weight += static_cast<uint32_t>(share);
+    for (size_t at = first_[r.neighbour[i]]; at < first_[r.neighbour[i] + 1]; ++at) {
+      const uint32_t place = coded_[at].place();
+      const int steps = coded_[at].steps();
+      near_size_[place] = static_cast<uint8_t>(near_size_[place] + share * std::abs(steps));
+      near_sum_[place] = static_cast<int8_t>(near_sum_[place] + share * steps);
     }
   }
   const uint32_t reciprocal = weight > 0 ? (16u << 16) / weight : 0;
   for (size_t at = 0; at < row_size_; ++at)
     near_class_[at] = static_cast<uint8_t>(near_class((near_size_[at] * reciprocal) >> 16));
-  row_rate_ = weight > 0 ? density / weight : 0;
-  near_density_ = rate_class(row_rate_);
-  row_rate_ = std::max(row_rate_, 256u);
-  active_context_ =
-      (weight > 0 ? (4 * active + weight - 1) / weight : 2) * 2 + (last_active_ ? 1 : 0);
-  writable_ = row_values(row);
-  own_ = writable_;
 }
 
-void CorrectionField::finish_row(uint32_t row) {
-  uint32_t corrected = 0;
-  for (size_t at = 0; at < row_size_; ++at) corrected += own_[at] != 0 ? 1 : 0;
-  last_active_ = corrected > 0;
-  is_active_[row] = last_active_ ? 1 : 0;
-  density_[row] = static_cast<uint32_t>((uint64_t{corrected} << 16) / (3 * uint64_t{frames_}));
+void CorrectionField::finish_row() {
+  const size_t corrected = coded_.size() - first_.back();
+  first_.push_back(coded_.size());
+  density_.push_back(static_cast<uint32_t>((uint64_t{corrected} << 16) / (3 * uint64_t{frames_})));
 }
 
 void CorrectionField::note(const Correction& coded, size_t at) {
   const int64_t steps = coded.replaced ? 2 : coded.steps;
-  writable_[at] = static_cast<int8_t>(std::clamp<int64_t>(steps, -2, 2));
+  if (steps != 0) {
+    const int64_t clamped = std::clamp<int64_t>(steps, -2, 2);
+    own_[at] = static_cast<int8_t>(clamped);
+    coded_.emplace_back(at, clamped);
+  }
   const uint32_t share = steps != 0 ? 65535 : 0;
   const auto follow = [share](uint32_t& rate, uint32_t shift) {
     rate = share > rate ? rate + ((share - rate) >> shift) : rate - ((rate - share) >> shift);

@@ -17,11 +17,13 @@ namespace reeb {
 
 class CorrectionField {
  public:
-  CorrectionField(const PredictionGraph& graph, uint32_t frames);
+  /// `count`: corrections that there will be at most, where that is known.
+  CorrectionField(const PredictionGraph& graph, uint32_t frames, uint64_t count = 0);
 
   /// Bytes of memory while a group is coded.
-  static uint64_t memory(uint64_t rows, uint64_t frames) {
-    return rows * 3 * (frames + kMargin) + 64 * (frames + kMargin);
+  static uint64_t memory(uint64_t rows, uint64_t frames, uint64_t count) {
+    return rows * (sizeof(size_t) + sizeof(uint32_t)) + 3 * kPlaceBytes * (frames + kMargin) +
+           sizeof(uint32_t) * count + sizeof(CorrectionField);
   }
 
   /// Codes the rows in order. `get(row, t, axis)` gives a coordinate's correction (asked for only
@@ -67,6 +69,7 @@ class CorrectionField {
   bool code_row(Coder& coder, const Source& source, Put& put) {
     begin_row(source.row);
     if (active_[active_context_].code(coder, source.any())) {
+      look_around(source.row);
       for (uint32_t t = 0; t < frames_; ++t) {
         for (uint32_t axis = 0; axis < 3; ++axis) {
           const Correction c = code_one(coder, source.at(t, axis), place(t, axis), axis);
@@ -75,7 +78,7 @@ class CorrectionField {
         }
       }
     }
-    finish_row(source.row);
+    finish_row();
     return true;
   }
 
@@ -113,31 +116,45 @@ class CorrectionField {
   }
 
   void begin_row(uint32_t row);
-  void finish_row(uint32_t row);
+  /// What an active row sees of its neighbours.
+  void look_around(uint32_t row);
+  void finish_row();
   void note(const Correction& coded, size_t at);
   ZeroMixer::Prediction predict_some(size_t at, uint32_t axis) const;
   SignMixer::Prediction predict_negative(size_t at) const;
   uint32_t length_context(size_t at) const;
-  int8_t* row_values(uint32_t row) { return &value_[row * row_size_]; }
+  bool has_some(uint32_t row) const { return first_[row] < first_[row + 1]; }
+
+  /// A correction that is coded: its place, and its steps clamped to +-2.
+  class Coded {
+   public:
+    Coded(size_t place, int64_t steps)
+        : packed_(static_cast<uint32_t>(place << 3 | static_cast<uint64_t>(steps + 2))) {}
+    uint32_t place() const { return packed_ >> 3; }
+    int steps() const { return static_cast<int>(packed_ & 7) - 2; }
+
+   private:
+    uint32_t packed_;
+  };
+  /// Of frame_rate_, own_ and what near_ things there are.
+  static constexpr uint64_t kPlaceBytes = 8;
 
   const PredictionGraph& graph_;
   uint32_t frames_;
   size_t row_size_;
-  std::vector<int8_t> value_;         ///< steps coded so far, clamped to +-2, by row and place
-  std::vector<uint8_t> is_active_;    ///< rows that have a correction
+  std::vector<Coded> coded_;          ///< row after row
+  std::vector<size_t> first_;         ///< of each row; the end of the last one behind them
   std::vector<uint32_t> density_;     ///< of the row: share of corrected coordinates, 1/65536
   std::vector<uint32_t> frame_rate_;  ///< by place: decaying share over the active rows, 1/65536
 
   // Of the row being coded.
-  const int8_t* own_ = nullptr;
-  int8_t* writable_ = nullptr;
+  std::vector<int8_t> own_;          ///< by place: steps clamped to +-2
   std::vector<uint8_t> near_size_;   ///< by place: sizes among the neighbours, the ring twice
   std::vector<int8_t> near_sum_;     ///< the same with signs
   std::vector<uint8_t> near_class_;  ///< class of the mean of near_size_
   uint32_t row_rate_ = 0;            ///< decaying share within the row, 1/65536
   uint32_t near_density_ = 0;        ///< class of the neighbours' mean density
   uint32_t active_context_ = 0;
-  bool last_active_ = false;
 
   ZeroMixer zero_;
   SignMixer sign_;

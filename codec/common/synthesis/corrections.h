@@ -1,6 +1,7 @@
 // What is added to a reconstruction so that no coordinate misses the original by more than a bound.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,36 +25,55 @@ struct Correction {
 /// The corrections of a group of frames, most coordinates having none.
 class Corrections {
  public:
-  static constexpr uint64_t kEntryBytes = 24;  ///< of memory, for each
+  static constexpr uint64_t kEntryBytes = 16;  ///< of memory, for each
+  static constexpr uint64_t kMaxCount = 0xFFFFFFFE;
 
   Corrections() = default;
-  /// `step` in world units.
-  Corrections(uint32_t frames, double step) : step_(step), frames_(frames) {}
+  /// `step` in world units; `count`: how many will be added, where that is known.
+  Corrections(uint32_t frames, double step, uint64_t count = 0)
+      : step_(step), latest_(frames, kNone) {
+    entries_.reserve(static_cast<size_t>(count));
+  }
 
-  /// Of `axis` of a vertex in frame t, which has none yet.
-  void add(uint32_t vertex, uint32_t t, uint32_t axis, const Correction& correction) {
-    frames_[t].push_back({vertex, axis, correction});
+  /// Of `axis` of a vertex in frame t, which has none yet. At most kMaxCount in all.
+  void add(uint32_t vertex, uint32_t t, uint32_t axis, const Correction& c) {
+    const int64_t what = c.replaced ? std::bit_cast<int32_t>(c.value) : c.steps;
+    const uint32_t place = vertex * 3 + axis;
+    const auto index = static_cast<uint32_t>(entries_.size());
+    entries_.push_back({what, c.replaced ? place | kReplaced : place, latest_[t]});
+    latest_[t] = index;
   }
 
   /// Corrects frame t; vertex v lies at xyz + v * stride.
   void apply(uint32_t t, float* xyz, size_t stride) const {
-    if (frames_.empty()) return;
-    for (const Entry& e : frames_[t]) {
-      float& x = xyz[e.vertex * stride + e.axis];
-      x = e.correction.apply(x, step_);
+    if (latest_.empty()) return;
+    for (uint32_t at = latest_[t]; at != kNone; at = entries_[at].before) {
+      const Entry& e = entries_[at];
+      const uint32_t place = e.place & ~kReplaced;
+      float& x = xyz[place / 3 * stride + place % 3];
+      x = correction(e).apply(x, step_);
     }
   }
 
  private:
+  static constexpr uint32_t kNone = UINT32_MAX;
+  static constexpr uint32_t kReplaced = 1u << 31;
+
   struct Entry {
-    uint32_t vertex;
-    uint32_t axis;
-    Correction correction;
+    int64_t what;     ///< steps, or the bits of what replaces the coordinate
+    uint32_t place;   ///< vertex * 3 + axis, and whether the coordinate is replaced
+    uint32_t before;  ///< the correction of the same frame that was added before this one
   };
   static_assert(sizeof(Entry) == kEntryBytes);
 
+  static Correction correction(const Entry& e) {
+    if ((e.place & kReplaced) == 0) return {e.what, false, 0};
+    return {0, true, std::bit_cast<float>(static_cast<int32_t>(e.what))};
+  }
+
   double step_ = 0;
-  std::vector<std::vector<Entry>> frames_;
+  std::vector<Entry> entries_;
+  std::vector<uint32_t> latest_;  ///< correction of each frame
 };
 
 }  // namespace reeb

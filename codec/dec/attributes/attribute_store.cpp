@@ -119,6 +119,9 @@ Status AttributeStore::decode_group(const std::shared_ptr<const KeptAttribute>& 
   AttributeGroupParts parts;
   if (Status s = read_attribute_group(kept->header, chunk, parts); !s.ok()) return s;
   const uint64_t sites = kept->surface.surface.output.size();
+  for (const GroupChunk& part : parts.parts) {
+    if (Status s = check_elements(part.header, sites); !s.ok()) return s;
+  }
   if (Status s = grow(parts.memory(sites), out.lease); !s.ok()) return s;
   if (Status s = decode_attribute_group(parts, kept->surface, threads, stop, out.frames); !s.ok())
     return s;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bitstream/attribute_group_body.h"
+#include "bitstream/element_bound.h"
 #include "bitstream/group_payload.h"
 #include "bitstream/syntax.h"
 #include "codec/dec/attributes/attribute_decoder.h"
@@ -61,6 +62,14 @@ GroupHeader header_of(const AttributeGroupHeader& group, Profile profile) {
   h.shot = group.shot;
   h.profile = profile;
   return h;
+}
+
+/// A part of so many sites.
+std::vector<uint8_t> payload_of(const GroupHeader& header, size_t sites,
+                                const GroupSections& sections) {
+  std::vector<uint8_t> padded, out;
+  (void)write_group_payload(header, within_element_bound(header, sites, sections, padded), out);
+  return out;
 }
 
 }  // namespace
@@ -147,9 +156,7 @@ std::vector<uint8_t> AnimatedEncoder::encode_exactly(const std::vector<float>& c
   GroupHeader header = header_of(group, Profile::kLossless);
   header.stored_count = coded.stored_count;
   if (options.quick) header.flags |= GroupHeader::kQuick;
-  std::vector<uint8_t> out;
-  (void)write_group_payload(header, {.differences = coded.differences, .raw = coded.raw}, out);
-  return out;
+  return payload_of(header, elements_.size(), {.differences = coded.differences, .raw = coded.raw});
 }
 
 std::vector<uint8_t> AnimatedEncoder::encode_roughly(const std::vector<float>& coordinates,
@@ -181,9 +188,8 @@ std::vector<uint8_t> AnimatedEncoder::encode_roughly(const std::vector<float>& c
       header.correction_step = corrections.step;
       header.correction_count = corrections.count;
     }
-    std::vector<uint8_t> bytes;
-    (void)write_group_payload(header, {{}, coded.coefficients, coded.basis, corrections.bytes},
-                              bytes);
+    const std::vector<uint8_t> bytes = payload_of(
+        header, elements_.size(), {{}, coded.coefficients, coded.basis, corrections.bytes});
     if (best.empty() || bytes.size() < best.size()) best = bytes;
     return static_cast<double>(bytes.size());
   });

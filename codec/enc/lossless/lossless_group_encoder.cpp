@@ -30,7 +30,7 @@ LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFr
     frame = frames[t];
     coder.code(bits, raw, frame.data());
   }
-  return {frames.frame_count(), frames.stored_count(), bits.finish(), raw.finish()};
+  return {surface.rows(), frames.frame_count(), frames.stored_count(), bits.finish(), raw.finish()};
 }
 
 }  // namespace reeb

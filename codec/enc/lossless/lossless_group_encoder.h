@@ -10,6 +10,7 @@
 namespace reeb {
 
 struct LosslessGroup {
+  uint32_t vertex_count = 0;
   uint32_t frame_count = 0;
   uint32_t stored_count = 0;         ///< frames that are not copies
   std::vector<uint8_t> differences;  ///< range code

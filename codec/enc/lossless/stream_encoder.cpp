@@ -10,6 +10,7 @@
 
 #include "bitstream/container.h"
 #include "bitstream/crc32c.h"
+#include "bitstream/element_bound.h"
 #include "codec/common/base/float_state.h"
 #include "codec/common/base/parallel.h"
 #include "codec/enc/lossless/lossless_group_encoder.h"
@@ -117,7 +118,9 @@ Status StreamEncoder::Impl::write_oldest() {
   header.flags = options.method.quick ? GroupHeader::kQuick : uint8_t{0};
   header.stored_count = group.stored_count;
   frames_done += group.frame_count;
-  const GroupSections sections = {.differences = group.differences, .raw = group.raw};
+  std::vector<uint8_t> padded;
+  const GroupSections sections = within_element_bound(
+      header, group.vertex_count, {.differences = group.differences, .raw = group.raw}, padded);
   if (Status s = writer.group(header, sections); !s.ok()) return s;
   return flush();
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "bitstream/element_bound.h"
 #include "bitstream/headers.h"
 #include "bitstream/syntax.h"
 #include "codec/common/fast/plain_order.h"
@@ -216,6 +217,14 @@ Status write_face_order(const Connectivity& input, const MeshState& state,
   return status;
 }
 
+/// How many bytes a mesh must have. Zeros at the end of a range code mean nothing; they keep
+/// extreme meshes within the bound.
+size_t least_bytes(const MeshState& s) {
+  const size_t elements = std::max({size_t{s.vertex_count}, size_t{s.face_count},
+                                    s.triangles.size() / 3, s.listed.corners.size()});
+  return (elements + kMeshElementsPerByte - 1) / kMeshElementsPerByte;
+}
+
 Status write_mesh(const Connectivity& input, const DracoPlan& plan,
                   const std::vector<uint32_t>& coding, const ReferenceOptions& options,
                   MeshState& state, std::vector<uint8_t>& bytes) {
@@ -226,16 +235,10 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
     walk = walk_mesh(state.vertex_count, collect_triangles(state));
     positions = write_plain_positions(state, walk);
   }
-  constexpr uint64_t kAny = std::numeric_limits<uint64_t>::max();
   std::optional<TriangleTopology> topology;
   if (!options.plain) topology.emplace(state.point_count, state.triangles);
-  if (Status s = code_rest(coder, topology ? &*topology : nullptr, state, kAny); !s.ok()) return s;
+  if (Status s = code_rest(coder, topology ? &*topology : nullptr, state, {}); !s.ok()) return s;
   std::vector<uint8_t> rest = coder.finish();
-  // Zeros at the end of a range code mean nothing; they keep extreme meshes within the decoder's
-  // bound.
-  const size_t elements =
-      std::max({size_t{state.vertex_count}, size_t{state.face_count}, state.triangles.size() / 3});
-  rest.resize(std::max<size_t>(rest.size(), elements / kElementsPerByte + 1));
   std::vector<uint8_t> order;
   if (!options.reorder) {
     if (Status s = write_order(state, coding, options.plain ? &walk : nullptr, order); !s.ok())
@@ -246,6 +249,9 @@ Status write_mesh(const Connectivity& input, const DracoPlan& plan,
   if (keeps_faces) {
     if (Status s = write_face_order(input, state, coding, faces); !s.ok()) return s;
   }
+  const size_t others =
+      plan.encoding.section.size() + positions.size() + order.size() + faces.size();
+  rest.resize(std::max(rest.size(), least_bytes(state) - std::min(others, least_bytes(state))));
   const auto flags = static_cast<uint8_t>((options.reorder ? 0 : MeshHeader::kOrderKept) |
                                           (keeps_faces ? MeshHeader::kFaceOrderKept : 0) |
                                           (options.plain ? MeshHeader::kPlain : 0));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bitstream/element_bound.h"
 #include "codec/enc/search/group_plan.h"
 #include "segmentation/segmentation.h"
 #include "segmentation/union_find.h"
@@ -171,6 +172,8 @@ Status ShotEncoder::write(uint32_t shot_index, const CodedShot& coded,
     GroupSections sections{
         .motion = group.motion, .coefficients = group.coefficients, .basis = group.basis};
     if (group.corrections.has_value()) sections.corrections = group.corrections->bytes;
+    std::vector<uint8_t> padded;
+    sections = within_element_bound(header, shot_.connectivity.vertex_count, sections, padded);
     if (Status s = writer.group(header, sections); !s.ok()) return s;
   }
   return {};
