@@ -191,6 +191,13 @@ def flipped(data, at):
     return data[:at] + bytes([data[at] ^ 0x10]) + data[at + 1:]
 
 
+def with_bits(data, first, count, value):
+    """`value` in the bits first .. first + count - 1, the lowest bit of a byte first."""
+    mask = (1 << count) - 1
+    bits = int.from_bytes(data, "little") & ~(mask << first) | (value & mask) << first
+    return bits.to_bytes(len(data), "little")
+
+
 def work(data):
     """Vertices times planes of a sound stream, about what decoding it costs; 0 of others."""
     try:
@@ -487,6 +494,15 @@ def add_sections(m):
              dict(differences=h["differences"][:len(h["differences"]) // 2])),
             ("lossless_distance", "A copy of a frame before the group.", dict(differences=bytes(8)))):
         m.add(name, "corrupt", sentence, exact.edited(b"GRUP", **changes))
+    grids = File(m.sound("lossless_grids"))
+    raw = read_group(grids.chunks[2][1])["raw"]
+    # Of the first axis, behind 12 bits of sets: 16 of levels, 64 of origin, 64 of step.
+    for name, sentence, changes in (
+            ("lossless_grid_origin", "A grid whose origin is no number.", dict(raw=with_bits(raw, 28, 64, -1))),
+            ("lossless_grid_step", "A grid whose step is 0.", dict(raw=with_bits(raw, 92, 64, 0))),
+            ("lossless_grid_levels", "Corrections of levels that a grid does not have.",
+             dict(raw=with_bits(raw, 12, 16, 2)))):
+        m.add(name, "corrupt", sentence, grids.edited(b"GRUP", **changes))
     fast = File(m.sound("fast_order"))
     plain = read_reference(fast.chunks[1][1])
     position, order = plain["position"], plain["order"]

@@ -157,6 +157,25 @@ Sequence with_stranger(const Shape& shape, uint32_t frames) {
   return s;
 }
 
+/// Every frame on 256 levels an axis, as MD2 files have them: the third on those of the second, the
+/// fourth on none, the sixth written as text.
+Sequence on_grids(const Shape& shape, uint32_t frames) {
+  Sequence s = sequence_of({animate(shape, frames)});
+  std::vector<float>& positions = s.shots[0].positions;
+  const size_t size = shape.positions.size();
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const size_t t = i / size, grid = t == 2 ? 1 : t;
+    const auto step = static_cast<float>(0.02 * std::sin(1.0 + static_cast<double>(grid)) + 0.03);
+    const float origin = -2.1f - 0.01f * static_cast<float>(grid + i % 3);
+    const float level = std::round((positions[i] - origin) / step);
+    const float scaled = level * step;
+    if (t != 3) positions[i] = scaled + origin;
+    if (t == 5)
+      positions[i] = static_cast<float>(std::round(static_cast<double>(positions[i]) * 1e5) / 1e5);
+  }
+  return s;
+}
+
 Shape shuffled(const Shape& shape) {
   const uint32_t n = shape.connectivity.vertex_count;
   Shape out = shape;
@@ -286,7 +305,11 @@ void add_profiles(Maker& m) {
         dropped);
   m.add("fast_fine", "Many components and large residuals in the fast profile.", torus(10, 8), 12,
         with(at(0.002), Profile::kFast), scatter);
-  m.add("fast_vertex", "One vertex in the fast profile.", single_vertex(), 3, fast);
+  // No error is relative to the extent of one vertex, which has none.
+  EncodeOptions by_rate = fast;
+  by_rate.target = Target::kBpvf;
+  by_rate.target_value = 2000;
+  m.add("fast_vertex", "One vertex in the fast profile.", single_vertex(), 3, by_rate);
   m.add("thesis", "Thesis profile.", torus(12, 8), 5, with(at(0.3), Profile::kThesis));
   m.add("thesis_regions",
         "Thesis profile with regions: transforms follow those of the frame before.", torus(14, 9),
@@ -330,6 +353,11 @@ void add_lossless(Maker& m) {
         quick, leap);
   m.add("lossless_stranger", "Decimals, and values among them that are none.",
         with_stranger(torus(12, 8), 8), exact);
+  m.add("lossless_grids",
+        "Frames on grids of their own, one on that of the frame before, one on none.",
+        on_grids(torus(12, 8), 8), exact);
+  m.add("lossless_quick_grids", "The quick method on grids of frames.", on_grids(torus(12, 8), 8),
+        quick);
   m.add("lossless_powers", "Two digits at all powers of ten.", torus(10, 6), 4, exact, powers);
   m.add("lossless_jitter", "Steps of a few hundredths, to and fro.", torus(10, 6), 20, exact,
         jitter);

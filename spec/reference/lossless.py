@@ -97,6 +97,60 @@ class Decimals:
         return 213 * self.decade(rank_of(number)) // 8
 
 
+class Levels:
+    """Section 6: a grid of a frame."""
+
+    def __init__(self, count, origin, step):
+        self.count, self.origin, self.step = count, origin, step
+        self.places = {}
+        self.spacing_ = (struct.unpack("<Q", struct.pack("<d", step))[0] >> 49) - 6984
+
+    def nearest(self, x):
+        return math.floor(clamp((x - self.origin) / self.step + 0.5, 0, self.count - 1))
+
+    def spacing(self, number):
+        return self.spacing_
+
+    def value(self, number):
+        number %= self.count
+        numbers = BinaryNumbers()
+        return numbers.value(numbers.nearest(self.origin + number * self.step) + self.places.get(number, 0))
+
+
+class FrameGrids:
+    """Section 6: the grids of the frames along one axis."""
+
+    def __init__(self):
+        self.numbers = BinaryNumbers()
+        self.same, self.gap, self.size, self.down = AdaptiveBit(), ExpGolomb(), ExpGolomb(), AdaptiveBit()
+
+    def next(self, decoder, raw):
+        if self.same.decode(decoder):
+            return
+        count = raw.raw(16)
+        if count == 0:
+            self.numbers = BinaryNumbers()
+            return
+        origin = decode_double(raw)
+        require(abs(origin) <= LARGEST_F32, "an origin out of range")
+        self.numbers = Levels(count, origin, decode_step(raw))
+        self.decode_places(decoder)
+
+    def decode_places(self, decoder):
+        following = 0
+        while True:
+            following += self.gap.decode(decoder)
+            decoder.check()
+            if following >= self.numbers.count:
+                require(following == self.numbers.count, "a correction of no level")
+                return
+            size = self.size.decode(decoder)
+            require(size < 1 << 30, "a correction out of range")
+            self.numbers.places[following] = -size - 1 if self.down.decode(decoder) else size + 1
+            self.numbers.value(following)
+            following += 1
+
+
 def scale(x, p):
     return x / 10.0 ** -p if p < 0 else x * 10.0 ** p
 
@@ -113,13 +167,23 @@ def signed(x, number):
     return -x if number < 0 else x
 
 
+def decode_double(raw):
+    low, high = raw.raw(32), raw.raw(32)
+    return struct.unpack("<d", struct.pack("<II", low, high))[0]
+
+
+def decode_step(raw):
+    step = decode_double(raw)
+    require(2.0 ** -1022 <= step <= LARGEST_F32, "a step out of range")
+    return step
+
+
 def decode_set(raw):
     digits = raw.raw(4)
     if digits == 15:
-        low, high = raw.raw(32), raw.raw(32)
-        step = struct.unpack("<d", struct.pack("<II", low, high))[0]
-        require(2.0 ** -1022 <= step <= LARGEST_F32, "a step out of range")
-        return Multiples(step)
+        return Multiples(decode_step(raw))
+    if digits == 14:
+        return None
     require(digits <= 9, "a set of too many digits")
     if digits == 0:
         return BinaryNumbers()
@@ -225,6 +289,7 @@ class LosslessGroup:
 
     def decode(self, group):
         self.sets = [decode_set(self.raw) for _ in range(3)]
+        self.grids = [FrameGrids() if numbers is None else None for numbers in self.sets]
         self.coded = 0
         for t in range(group.frame_count):
             distance = self.decode_distance()
@@ -256,6 +321,10 @@ class LosslessGroup:
 
     def decode_frame(self):
         """Section 3."""
+        for a, grids in enumerate(self.grids):
+            if grids is not None:
+                grids.next(self.decoder, self.raw)
+                self.sets[a] = grids.numbers
         for r, row in enumerate(self.rows):
             predictions = [row.predict(self.rows, a) for a in range(3)]
             if self.still[self.still_context(r)].decode(self.decoder, 1000):

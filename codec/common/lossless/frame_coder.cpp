@@ -12,6 +12,7 @@ FrameCoder::FrameCoder(const PredictionGraph& graph, const std::vector<float>& s
                        const NumberSets& sets, bool quick, unsigned threads)
     : graph_(graph),
       sets_(sets),
+      by_frame_{sets[0].by_frame(), sets[1].by_frame(), sets[2].by_frame()},
       predictor_(graph, start, quick ? kQuickPrediction : DisplacementOptions(), threads),
       history_(graph),
       quick_(quick) {}

@@ -8,6 +8,7 @@
 
 #include "codec/common/lossless/difference_history.h"
 #include "codec/common/lossless/displacement_predictor.h"
+#include "codec/common/lossless/grid_syntax.h"
 #include "codec/common/lossless/number_set.h"
 #include "codec/common/lossless/rank_model.h"
 #include "codec/common/prediction/prediction_graph.h"
@@ -15,8 +16,9 @@
 
 namespace reeb {
 
-/// Set of each axis' numbers.
+/// Set of each axis' numbers, and the grids of a frame.
 using NumberSets = std::array<NumberSet, 3>;
+using FrameGrids = std::array<FrameGrid, 3>;
 
 class FrameCoder {
  public:
@@ -25,12 +27,14 @@ class FrameCoder {
   FrameCoder(const PredictionGraph& graph, const std::vector<float>& start, const NumberSets& sets,
              bool quick, unsigned threads);
 
-  /// Codes the next frame, [row][xyz]: reads it with encoders, writes it with decoders. False when
-  /// a decoder meets what no encoder writes.
+  /// Codes the next frame, [row][xyz]: reads it with encoders, writes it with decoders; `grids` of
+  /// the axes whose sets are those of frames, as an encoder wants them. False when a decoder meets
+  /// what no encoder writes.
   template <class Bits, class Raw>
-  bool code(Bits& bits, Raw& raw, float* frame) {
+  bool code(Bits& bits, Raw& raw, float* frame, const FrameGrids& grids = {}) {
     const bool fine =
-        quick_ ? code_rows(bits, raw, quick_model_, frame) : code_rows(bits, raw, model_, frame);
+        code_grids(bits, raw, grids) &&
+        (quick_ ? code_rows(bits, raw, quick_model_, frame) : code_rows(bits, raw, model_, frame));
     predictor_.finish_frame();
     first_ = false;
     return fine;
@@ -40,6 +44,17 @@ class FrameCoder {
   void jump(const std::vector<float>& frame) { predictor_.jump(frame); }
 
  private:
+  template <class Bits, class Raw>
+  bool code_grids(Bits& bits, Raw& raw, const FrameGrids& wanted) {
+    for (size_t a = 0; a < 3; ++a) {
+      if (!by_frame_[a]) continue;
+      FrameGrid& grid = grids_[a];
+      if (!grid_syntax_[a].code(bits, raw, wanted[a], grid)) return false;
+      sets_[a] = grid.count > 0 ? NumberSet::levels(grid) : NumberSet();
+    }
+    return true;
+  }
+
   template <class Bits, class Raw, class Model>
   bool code_rows(Bits& bits, Raw& raw, Model& model, float* frame) {
     for (uint32_t row = 0; row < graph_.size(); ++row) {
@@ -75,14 +90,15 @@ class FrameCoder {
     const DifferenceContext c = history_.context(row, axis, unit, first_);
     bool member = true;
     int64_t n = 0;
-    if constexpr (!kDecodes<Bits>) n = set.find(x, member) - guess;
+    if constexpr (!kDecodes<Bits>) n = set.difference(guess, set.find(x, member));
     if (!model.code(bits, raw, c, !member, n)) {
       x = std::bit_cast<float>(raw.code(std::bit_cast<uint32_t>(x), 32));
       n = 0;
       if (!std::isfinite(x)) return false;
     } else if constexpr (kDecodes<Bits>) {
-      if (!set.valid(guess + n)) return false;
-      x = set.number(guess + n);
+      const int64_t at = set.moved(guess, n);
+      if (!set.valid(at)) return false;
+      x = set.number(at);
     }
     history_.note(row, axis, unit, n);
     return true;
@@ -99,6 +115,9 @@ class FrameCoder {
 
   const PredictionGraph& graph_;
   NumberSets sets_;
+  std::array<bool, 3> by_frame_;
+  FrameGrids grids_;  ///< of the frame, of the axes whose sets are those of frames
+  std::array<GridSyntax, 3> grid_syntax_;
   DisplacementPredictor predictor_;
   DifferenceHistory history_;
   bool quick_;

@@ -2,32 +2,25 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <limits>
 
 #include "codec/common/lossless/frame_coder.h"
+#include "codec/common/lossless/grid_syntax.h"
 #include "entropy/integer_coder.h"
 
 namespace reeb {
-
-/// Codes a step; 0 where a decoder meets none.
-template <class Raw>
-double code_step(Raw& raw, double step) {
-  const auto wanted = std::bit_cast<uint64_t>(step);
-  const uint64_t low = raw.code(static_cast<uint32_t>(wanted), 32);
-  const uint64_t high = raw.code(static_cast<uint32_t>(wanted >> 32), 32);
-  const auto coded = std::bit_cast<double>(high << 32 | low);
-  constexpr auto kMax = static_cast<double>(std::numeric_limits<float>::max());
-  return coded >= std::numeric_limits<double>::min() && coded <= kMax ? coded : 0;
-}
 
 /// Codes the set of every axis; false where a decoder meets none.
 template <class Raw>
 bool code_number_sets(Raw& raw, NumberSets& sets) {
   for (NumberSet& set : sets) {
-    constexpr uint32_t kMultiples = 15;  // in place of digits
-    const uint32_t digits = raw.code(set.step() > 0 ? kMultiples : set.digits(), 4);
+    constexpr uint32_t kMultiples = 15, kByFrame = 14;  // in place of digits
+    const uint32_t wanted = set.step() > 0 ? kMultiples : set.by_frame() ? kByFrame : set.digits();
+    const uint32_t digits = raw.code(wanted, 4);
+    if (digits == kByFrame) {
+      set = NumberSet::of_frames();
+      continue;
+    }
     if (digits == kMultiples) {
       const double step = code_step(raw, set.step());
       if (step == 0) return false;

@@ -44,6 +44,34 @@ NumberSet NumberSet::multiples(double step) {
   return out;
 }
 
+NumberSet NumberSet::levels(const FrameGrid& grid) {
+  // Eighths of an octave from the bits of the step, which count as binary32's do.
+  constexpr int kFractionBits = 52 - 3;
+  constexpr int32_t kBiases = 8 * (1023 - 150);  // of binary64, and of the last place of binary32
+  NumberSet out;
+  out.step_ = grid.step;
+  out.grid_ = grid;
+  out.grid_spacing_ =
+      static_cast<int32_t>(std::bit_cast<uint64_t>(grid.step) >> kFractionBits) - kBiases;
+  return out;
+}
+
+NumberSet NumberSet::of_frames() {
+  NumberSet out;
+  out.by_frame_ = true;
+  return out;
+}
+
+float NumberSet::level(uint32_t n) const {
+  const NumberSet all;
+  int64_t place = all.nearest(grid_.origin + n * step_);
+  const auto at =
+      std::lower_bound(grid_.corrections.begin(), grid_.corrections.end(), n,
+                       [](const FrameGrid::Correction& c, uint32_t m) { return c.level < m; });
+  if (at != grid_.corrections.end() && at->level == n) place += at->places;
+  return all.number(place);
+}
+
 uint64_t NumberSet::decimal_rank(double x) const {
   const auto first = static_cast<double>(first_);
   const int places = static_cast<int>(decimals_);

@@ -7,14 +7,16 @@
 #include <cstdint>
 #include <limits>
 
+#include "codec/common/lossless/frame_grid.h"
+
 namespace reeb {
 
 /// Every binary32 value; or the decimals of `digits` significant digits and at most `decimals`
 /// places, each rounded to binary32: what text files hold; or the multiples of a step, rounded to
-/// binary32: what is left where errors up to half of it are allowed.
+/// binary32: what is left where errors up to half of it are allowed; or the levels of a grid.
 ///
 /// The integer of a number x >= 0 is its rank, that of -x is -1 - rank; 0 and -0 differ. That of a
-/// multiple is how many steps it is.
+/// multiple is how many steps it is, that of a level its number.
 class NumberSet {
  public:
   static constexpr uint32_t kMaxDigits = 9;
@@ -29,15 +31,21 @@ class NumberSet {
   /// Multiples; `step` is positive and at most the largest binary32.
   static NumberSet multiples(double step);
 
-  /// 0 but for multiples.
+  /// The levels of a grid, which has some.
+  static NumberSet levels(const FrameGrid& grid);
+  /// In place of a set: every frame brings its own.
+  static NumberSet of_frames();
+
+  /// 0 but for multiples and levels.
   double step() const { return step_; }
+  bool by_frame() const { return by_frame_; }
   bool decimal() const { return digits_ > 0; }
   uint32_t digits() const { return digits_; }
   uint32_t decimals() const { return decimals_; }
 
   /// The integer of the number next to x, which is finite; beyond binary32 the largest.
   int64_t nearest(double x) const {
-    if (step_ > 0) return nearest_multiple(x);
+    if (step_ > 0) return grid_.count > 0 ? nearest_level(x) : nearest_multiple(x);
     const bool negative = std::signbit(x);
     const auto rank = static_cast<int64_t>(decimal() ? decimal_rank(negative ? -x : x)
                                                      : binary_rank(negative ? -x : x));
@@ -51,14 +59,28 @@ class NumberSet {
     return n;
   }
 
+  /// What takes the integer `from` to `to`, which are those of numbers; levels follow each other in
+  /// a ring, so that it is at most half their count.
+  int64_t difference(int64_t from, int64_t to) const {
+    const int64_t count = grid_.count, d = to - from;
+    if (count == 0) return d;
+    return d > count / 2 ? d - count : d < -(count / 2) ? d + count : d;
+  }
+  int64_t moved(int64_t from, int64_t difference) const {
+    const int64_t count = grid_.count, n = from + difference;
+    return count == 0 ? n : (n % count + count) % count;
+  }
+
   /// True where the integer is that of a finite number.
   bool valid(int64_t n) const {
+    if (grid_.count > 0) return n >= 0 && n < int64_t{grid_.count};
     const int64_t rank = n < 0 ? -1 - n : n;
     return rank < rank_end_ && (step_ == 0 || std::isfinite(number(n)));
   }
 
   /// The number of a valid integer.
   float number(int64_t n) const {
+    if (grid_.count > 0) return level(static_cast<uint32_t>(n));
     if (step_ > 0) return static_cast<float>(static_cast<double>(n) * step_);
     const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
     const float x =
@@ -68,7 +90,7 @@ class NumberSet {
 
   /// log2 of the distance between neighbours near a valid integer, in 1/8, up to a constant.
   int32_t spacing(int64_t n) const {
-    if (step_ > 0) return 0;
+    if (step_ > 0) return grid_.count > 0 ? grid_spacing_ : 0;
     const auto rank = static_cast<uint64_t>(n < 0 ? -1 - n : n);
     return decimal() ? decade(rank) * 213 / 8 : 8 * static_cast<int32_t>(rank >> 23);
   }
@@ -87,6 +109,13 @@ class NumberSet {
     constexpr auto kMax = static_cast<double>(kMultiplesEnd - 1);
     return static_cast<int64_t>(n > kMax ? kMax : n < -kMax ? -kMax : n);
   }
+  /// floor((x - origin) / step + 1/2), within the levels.
+  int64_t nearest_level(double x) const {
+    const double n = std::floor((x - grid_.origin) / step_ + 0.5);
+    const double last = grid_.count - 1;
+    return static_cast<int64_t>(n > last ? last : n < 0 ? 0 : n);
+  }
+  float level(uint32_t n) const;
   uint64_t decimal_rank(double x) const;
   float decimal_number(uint64_t rank) const;
   /// How often the distance has grown tenfold up to a rank.
@@ -95,6 +124,9 @@ class NumberSet {
   }
 
   double step_ = 0;
+  FrameGrid grid_;
+  int32_t grid_spacing_ = 0;
+  bool by_frame_ = false;
   uint32_t digits_ = 0;
   uint32_t decimals_ = 0;
   int64_t rank_end_ = kBinaryEnd;
