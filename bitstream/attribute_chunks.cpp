@@ -54,8 +54,7 @@ Status ContainerParser::take_attribute_group(const Chunk& chunk) {
       return corrupt(chunk, "groups of attributes out of order");
   }
   const AttributeChunk* attribute = out_.attribute(h.shot, h.index);
-  if (attribute == nullptr ? intact()
-                           : !attribute->header.animated() || attribute->header.computed())
+  if (attribute == nullptr ? intact() : !attribute->header.in_groups())
     return corrupt(chunk, "no animated attribute of this index");
   const GroupHeader* group = out_.groups.empty() ? nullptr : &out_.groups.back().header;
   if (intact() && (group == nullptr || group->shot != h.shot ||

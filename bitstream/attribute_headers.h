@@ -15,8 +15,10 @@ namespace reeb {
 
 /// Front of chunk `attr`; the body follows, see AttributeBody.
 struct AttributeHeader {
-  static constexpr uint8_t kAnimated = 1;  ///< values for every frame, in the groups' chunks
-  static constexpr uint8_t kComputed = 2;  ///< normals that follow from positions; animated
+  static constexpr uint8_t kAnimated = 1;   ///< values for every frame, in the groups' chunks
+  static constexpr uint8_t kComputed = 2;   ///< normals that follow from positions; animated
+  static constexpr uint8_t kCorrected = 4;  ///< computed ones are turned by corrections
+  static constexpr uint8_t kTurning = 8;    ///< which differ from frame to frame
   uint32_t shot = 0;
   uint32_t index = 0;  ///< among the attributes of its shot
   std::string name;
@@ -28,6 +30,11 @@ struct AttributeHeader {
 
   bool animated() const { return (flags & kAnimated) != 0; }
   bool computed() const { return (flags & kComputed) != 0; }
+  bool corrected() const { return (flags & kCorrected) != 0; }
+  /// True where the groups have chunks of it.
+  bool in_groups() const { return (flags & (computed() ? kTurning : kAnimated)) != 0; }
+  /// Channels that are coded: those of the corrections, of computed normals.
+  uint32_t coded_channels() const { return !computed() ? channel_count : corrected() ? 2 : 0; }
   /// True where nothing of it may stand in the way of computing.
   bool may_be_computed() const {
     return semantic == Semantic::kNormal && type == ValueType::kBinary32 && channel_count == 3 &&
@@ -46,8 +53,12 @@ void describe(V& v, AttributeHeader& h) {
   v.u8("domain", h.domain, 0, 3);
   v.u8("type", h.type, 0, kLastValueType);
   v.u8("channel_count", h.channel_count, 1, kMaxChannels);
-  v.flags("flags", h.flags, AttributeHeader::kAnimated | AttributeHeader::kComputed);
-  if (h.computed() && !(h.animated() && h.may_be_computed()))
+  v.flags("flags", h.flags,
+          AttributeHeader::kAnimated | AttributeHeader::kComputed | AttributeHeader::kCorrected |
+              AttributeHeader::kTurning);
+  const bool turning = (h.flags & AttributeHeader::kTurning) != 0;
+  if ((h.computed() && !(h.animated() && h.may_be_computed())) ||
+      (h.corrected() && !h.computed()) || (turning && !h.corrected()))
     v.fail("flags", "asks for what cannot be computed");
 }
 

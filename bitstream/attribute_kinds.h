@@ -21,8 +21,9 @@ enum class Semantic : uint8_t {
   kVelocity = 5,
   kMaterial = 6,  ///< index in the attribute's table of names
   kGroup = 7,     ///< the same
+  kIndex = 8,     ///< of corners: place of their value in a list of the source, such as OBJ's vt
 };
-inline constexpr uint64_t kLastSemantic = 7;
+inline constexpr uint64_t kLastSemantic = 8;
 
 /// What there is one value of.
 enum class Domain : uint8_t { kVertex = 0, kCorner = 1, kFace = 2, kShot = 3 };

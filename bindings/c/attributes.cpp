@@ -28,6 +28,7 @@ static_assert(static_cast<int>(Semantic::kColour) == REEB_SEMANTIC_COLOUR);
 static_assert(static_cast<int>(Semantic::kVelocity) == REEB_SEMANTIC_VELOCITY);
 static_assert(static_cast<int>(Semantic::kMaterial) == REEB_SEMANTIC_MATERIAL);
 static_assert(static_cast<int>(Semantic::kGroup) == REEB_SEMANTIC_GROUP);
+static_assert(static_cast<int>(Semantic::kIndex) == REEB_SEMANTIC_INDEX);
 static_assert(static_cast<int>(reeb::Domain::kCorner) == REEB_DOMAIN_CORNER);
 static_assert(static_cast<int>(reeb::Domain::kFace) == REEB_DOMAIN_FACE);
 static_assert(static_cast<int>(reeb::Domain::kShot) == REEB_DOMAIN_SHOT);

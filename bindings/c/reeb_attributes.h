@@ -39,7 +39,8 @@ typedef enum reeb_semantic {
   REEB_SEMANTIC_COLOUR = 4,
   REEB_SEMANTIC_VELOCITY = 5,
   REEB_SEMANTIC_MATERIAL = 6, /**< index in the attribute's table of names */
-  REEB_SEMANTIC_GROUP = 7     /**< the same */
+  REEB_SEMANTIC_GROUP = 7,    /**< the same */
+  REEB_SEMANTIC_INDEX = 8     /**< of corners: place of their value in a list of the source */
 } reeb_semantic;
 
 /** What there is one value of: the elements of an attribute, in the order of the shot's mesh. */

@@ -164,28 +164,24 @@ Status SequenceDecoder::add_shot(const ReferenceChunk& reference, const Run& run
 Status SequenceDecoder::add_frames(const std::shared_ptr<const KeptAttribute>& kept, const Run& run,
                                    const Shot& shot, Attribute& attribute) {
   if (!attribute.animated) return {};
-  if (kept->header.computed()) {
-    for (uint32_t t = 0; t < shot.frame_count; ++t) {
-      SiteNumbers numbers;
-      if (Status s = attributes_.get_normals(kept, shot.frame(t), numbers); !s.ok()) return s;
-      append_numbers(numbers, attribute.values);
-    }
-    return {};
-  }
+  uint32_t frame = 0;
   for (size_t g = run.begin; g < run.end; ++g) {
     if (!decoded_[g]) continue;
     const GroupHeader& group = container_.groups[g].header;
     const AttributeGroupChunk* part =
         container_.attribute_group(group.first_frame, kept->header.index);
-    if (part == nullptr)
+    if (part == nullptr && kept->header.in_groups())
       return Status::corrupt("attribute \"" + attribute.name + "\" is missing in frame " +
                              std::to_string(uint64_t{group.first_frame} + 1));
-    for (uint32_t t = 0; t < group.frame_count; ++t) {
-      SiteNumbers numbers;
-      Status s =
-          attributes_.get_frame(kept, *part, t, resolve_threads(options_.threads), {}, numbers);
+    for (uint32_t t = 0; t < group.frame_count; ++t, ++frame) {
+      SiteNumbers coded, normals;
+      Status s;
+      if (kept->header.in_groups())
+        s = attributes_.get_frame(kept, *part, t, resolve_threads(options_.threads), {}, coded);
+      if (s.ok() && kept->header.computed())
+        s = attributes_.get_normals(kept, shot.frame(frame), coded, normals);
       if (!s.ok()) return s;
-      append_numbers(numbers, attribute.values);
+      append_numbers(kept->header.computed() ? normals : coded, attribute.values);
     }
   }
   return {};

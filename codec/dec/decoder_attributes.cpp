@@ -60,7 +60,11 @@ Status Decoder::Impl::decode_normals(uint32_t frame,
     return Status::limit("the normals need more memory than the limit allows");
   std::pmr::vector<float> xyz(values, memory);
   if (Status s = positions(frame, stop, {.positions = xyz.data()}, faces); !s.ok()) return s;
-  return attribute_store.get_normals(kept, xyz, out);
+  SiteNumbers corrections;
+  if (kept->header.in_groups()) {
+    if (Status s = coded_numbers(frame, kept, stop, corrections); !s.ok()) return s;
+  }
+  return attribute_store.get_normals(kept, xyz, corrections, out);
 }
 
 Status Decoder::Impl::attribute_numbers(uint32_t frame,
@@ -70,7 +74,13 @@ Status Decoder::Impl::attribute_numbers(uint32_t frame,
     AttributeStore::get_static(kept, out);
     return {};
   }
-  if (kept->header.computed()) return decode_normals(frame, kept, stop, out);
+  return kept->header.computed() ? decode_normals(frame, kept, stop, out)
+                                 : coded_numbers(frame, kept, stop, out);
+}
+
+Status Decoder::Impl::coded_numbers(uint32_t frame,
+                                    const std::shared_ptr<const KeptAttribute>& kept,
+                                    const StopToken& stop, SiteNumbers& out) {
   size_t group = 0;
   if (Status s = find_group(frame, group); !s.ok()) return s;
   const uint32_t first = container.groups[group].header.first_frame;

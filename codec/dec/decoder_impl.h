@@ -80,6 +80,9 @@ struct Decoder::Impl {
   Status find_resource(uint32_t index, const ResourceChunk*& chunk) const;
   Status attribute_numbers(uint32_t frame, const std::shared_ptr<const KeptAttribute>& kept,
                            const StopToken& stop, SiteNumbers& out);
+  /// What is coded of an animated attribute: values, or corrections of computed normals.
+  Status coded_numbers(uint32_t frame, const std::shared_ptr<const KeptAttribute>& kept,
+                       const StopToken& stop, SiteNumbers& out);
   Status decode_normals(uint32_t frame, const std::shared_ptr<const KeptAttribute>& kept,
                         const StopToken& stop, SiteNumbers& out);
   Status describe_attributes(uint32_t frame, std::vector<Attribute>& out,

@@ -138,6 +138,16 @@ std::vector<Stream> attribute_streams() {
   add_normals(creased);
   out.push_back(make_stream("attributes_normals", "Normals computed from positions; bounds.",
                             sequence_of({creased}), Target::kKg, Profile::kMain, 0, true));
+  Shot turned = animate(torus(6, 5), 4);
+  add_turned_normals(turned);
+  out.push_back(make_stream("attributes_turned_normals",
+                            "Computed normals with corrections, the same in all frames and others.",
+                            sequence_of({turned}), Target::kKg, Profile::kMain, 2));
+  Shot flat = animate(mixed_polygons(), 2);
+  add_turned_normals(flat);
+  out.push_back(make_stream("attributes_turned_flat",
+                            "Corrections where triangles have no area, in the fast profile.",
+                            sequence_of({flat}), Target::kKg, Profile::kFast));
   const Sequence moving = sequence_of({with_motion(mixed_polygons(), 5)});
   out.push_back(make_stream("attributes_animated",
                             "Animated attributes of every domain, in groups.", moving, Target::kKg,

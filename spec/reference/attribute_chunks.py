@@ -10,8 +10,8 @@ from .errors import Corrupt, Truncated, require
 UINT32 = (1 << 32) - 1
 BINARY32, U8, U16, I32, U8_NORMALISED, U16_NORMALISED = range(6)
 VERTEX, CORNER, FACE, SHOT = range(4)
-TEXTURE_COORDINATE, NORMAL, MATERIAL, GROUP = 1, 2, 6, 7
-ANIMATED, COMPUTED = 1, 2
+TEXTURE_COORDINATE, NORMAL, MATERIAL, GROUP, INDEX = 1, 2, 6, 7, 8
+ANIMATED, COMPUTED, CORRECTED, TURNING = 1, 2, 4, 8
 MULTIPLES, BITS = 0, 1
 FORMATS = {BINARY32: "<I", U8: "<B", U16: "<H", I32: "<i", U8_NORMALISED: "<B", U16_NORMALISED: "<H"}
 RANGES = {U8: (0, 255), U16: (0, 65535), I32: (-2 ** 31, 2 ** 31 - 1), U8_NORMALISED: (0, 255),
@@ -67,12 +67,26 @@ class Attribute:
     def computed(self):
         return self.flags & COMPUTED != 0
 
+    def corrected(self):
+        return self.flags & CORRECTED != 0
+
+    def in_groups(self):
+        return self.flags & (TURNING if self.computed() else ANIMATED) != 0
+
+    def coded_channels(self):
+        """Section 11: of computed normals, those of the corrections."""
+        if not self.computed():
+            return self.channel_count
+        return 2 if self.corrected() else 0
+
     def may_be_computed(self):
         return (self.semantic == NORMAL and self.kind == BINARY32 and self.channel_count == 3 and
                 self.domain in (VERTEX, CORNER))
 
     def categorical(self):
-        return (self.semantic in (MATERIAL, GROUP) and self.domain == FACE and self.channel_count == 1 and
+        of_faces = self.domain == FACE and self.semantic in (MATERIAL, GROUP)
+        of_corners = self.domain == CORNER and self.semantic == INDEX
+        return ((of_faces or of_corners) and self.channel_count == 1 and
                 self.kind != BINARY32 and self.channels[0].top <= 1 << 30)
 
 
@@ -82,13 +96,15 @@ def read_attribute(payload):
     index = reader.uv("index", 0, 255)
     name = reader.text("name")
     require(len(name.encode()) <= 256, "attr: a long name")
-    semantic = reader.u8("semantic", 0, 7)
+    semantic = reader.u8("semantic", 0, 8)
     domain = reader.u8("domain", 0, 3)
     kind = reader.u8("type", 0, 5)
     channel_count = reader.u8("channel_count", 1, 16)
-    flags = reader.flags("flags", ANIMATED | COMPUTED)
+    flags = reader.flags("flags", ANIMATED | COMPUTED | CORRECTED | TURNING)
     out = Attribute(shot, index, name, semantic, domain, kind, channel_count, flags, reader.take(reader.remaining()))
     require(not out.computed() or out.animated() and out.may_be_computed(), "attr: nothing that can be computed")
+    require(not out.corrected() or out.computed(), "attr: corrections of nothing")
+    require(not flags & TURNING or out.corrected(), "attr: no corrections that differ")
     return out
 
 
@@ -100,10 +116,11 @@ def read_body(attribute):
         attribute.channels = [read_channel(reader) for _ in range(reader.uv("channel_headers"))]
     except Truncated as fault:
         raise Corrupt(str(fault))
-    wanted = 0 if attribute.animated() else attribute.channel_count
+    wanted = 0 if attribute.in_groups() else attribute.coded_channels()
     require(len(attribute.channels) == wanted, "attr: not a header for every channel")
     for channel in attribute.channels:
         channel.check(attribute.kind)
+        require(not attribute.computed() or channel.numbers == MULTIPLES, "attr: corrections that are no multiples")
     return reader.take(reader.remaining())
 
 

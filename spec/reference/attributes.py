@@ -23,11 +23,12 @@ class Corners:
 
     def __init__(self, faces):
         self.vertex = [v for face in faces for v in face]
-        self.face, self.following = [], []
+        self.face, self.following, self.preceding = [], [], []
         for f, face in enumerate(faces):
             first = len(self.face)
             self.face += [f] * len(face)
             self.following += [first + (i + 1) % len(face) for i in range(len(face))]
+            self.preceding += [first + (i - 1) % len(face) for i in range(len(face))]
         edges = {}
         for c, v in enumerate(self.vertex):
             w = self.vertex[self.following[c]]
@@ -398,13 +399,25 @@ def decode_values(decoder, sites, tops, texture):
     return predictor.values
 
 
-def decode_categories(decoder, faces, top):
-    """Section 8."""
+def elements_near(domain, faces):
+    """Section 8: of every face, or corner, those that it may be like."""
     corners = Corners(faces)
-    across = [[] for _ in faces]
+    if domain == FACE:
+        across = [[] for _ in faces]
+        for c, t in enumerate(corners.twin):
+            if t != NONE:
+                across[corners.face[c]].append(corners.face[t])
+        return across
+    near = []
     for c, t in enumerate(corners.twin):
-        if t != NONE:
-            across[corners.face[c]].append(corners.face[t])
+        into = corners.twin[corners.preceding[c]]
+        near.append(([corners.following[t]] if t != NONE else []) + ([into] if into != NONE else []))
+    return near
+
+
+def decode_categories(decoder, domain, faces, top):
+    """Section 8."""
+    across = elements_near(domain, faces)
     same, beside = {}, [AdaptiveBit() for _ in range(3)]
     rank_model, new_model = ExpGolomb(), SignedInteger()
     values, recent = [], []
@@ -412,10 +425,11 @@ def decode_categories(decoder, faces, top):
 
     def decode_new():
         nonlocal newest
-        newest = clamp(newest + new_model.decode(decoder), 0, top + 1)
-        return newest
+        value = clamp(newest + new_model.decode(decoder), 0, top + 1)
+        newest = value if domain == FACE else max(newest, value)
+        return value
 
-    for f in range(len(faces)):
+    for f in range(len(across)):
         if f == 0:
             value = decode_new()
         else:
@@ -428,6 +442,8 @@ def decode_categories(decoder, faces, top):
                 value = before
             elif others and beside[context[0]].decode(decoder):
                 value = others[0]
+            elif domain != FACE:
+                value = decode_new()
             else:
                 rank = rank_model.decode(decoder)
                 value = recent[rank] if rank < len(recent) else decode_new()
@@ -462,8 +478,12 @@ def animated_sites(attribute, grid, faces):
     section = read_body(attribute)
     decoder = IntervalDecoder(section)
     sites = decode_sites(decoder, attribute.domain, grid, faces)
+    corrections = None
+    if attribute.channels:
+        rows = decode_values(decoder, sites, [c.top for c in attribute.channels], False)
+        corrections = [[c.number(BINARY32, n) for c, n in zip(attribute.channels, row)] for row in rows]
     decoder.check()
-    return sites
+    return sites, corrections
 
 
 def number_of(kind, scale, coordinate):
@@ -475,20 +495,64 @@ def number_of(kind, scale, coordinate):
     return int(clamp(math.floor(number + 0.5), low, high))
 
 
-def pack_frame(attribute, sites, scales, coordinates):
+def site_numbers(attribute, scales, coordinates):
     """`coordinates`: of each site, all channels."""
+    return [[number_of(attribute.kind, s, x) for s, x in zip(scales, row)] for row in coordinates]
+
+
+def pack_frame(attribute, sites, numbers):
     form = FORMATS[attribute.kind]
-    packed = [b"".join(struct.pack(form, number_of(attribute.kind, s, x)) for s, x in zip(scales, row))
-              for row in coordinates]
+    packed = [b"".join(struct.pack(form, x) for x in row) for row in numbers]
     return b"".join(packed[site] for site in sites.of_element)
 
 
-def pack_normals(sites, positions):
-    """Section 11: normals computed from the positions of a frame."""
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def normalised(a):
+    """None where it has no direction."""
+    length = math.sqrt(dot(a, a))
+    if not 0 < length < math.inf:
+        return None
+    scale = 1 / length
+    return [x * scale for x in a]
+
+
+def turned(total, edge, u, v):
+    """Section 11."""
+    normal = normalised(total)
+    if u == 0 and v == 0:
+        return normal or [0.0, 0.0, 0.0]
+    along = None
+    if normal is None:
+        normal = [0.0, 0.0, 1.0]
+    else:
+        factor = -dot(edge, normal)
+        along = normalised([e + factor * n for e, n in zip(edge, normal)])
+    if along is None:
+        least = min(range(3), key=lambda k: abs(normal[k]))
+        along = normalised([(1.0 if k == least else 0.0) + -normal[least] * normal[k] for k in range(3)])
+    across = [normal[1] * along[2] - normal[2] * along[1], normal[2] * along[0] - normal[0] * along[2],
+              normal[0] * along[1] - normal[1] * along[0]]
+    x, y, z = u, v, 1 - abs(u) - abs(v)
+    if z < 0:
+        x = (1 - abs(v)) * (-1.0 if u < 0 else 1.0)
+        y = (1 - abs(u)) * (-1.0 if v < 0 else 1.0)
+    out = [x * a + y * b + z * n for a, b, n in zip(along, across, normal)]
+    return normalised(out) or out
+
+
+def pack_normals(sites, positions, corrections):
+    """Section 11: normals computed from the positions of a frame; `corrections`: bits of u and v of each site."""
     places = positions if sites.vertex is None else [positions[v] for v in sites.vertex]
     sums = [[0.0] * 3 for _ in places]
+    edges = [None] * len(places)
     for i in range(0, len(sites.triangles), 3):
         corners = sites.triangles[i:i + 3]
+        for k, c in enumerate(corners):
+            if edges[c] is None:
+                edges[c] = [places[corners[(k + 1) % 3]][a] - places[c][a] for a in range(3)]
         p, q, r = (places[c] for c in corners)
         u = [q[k] - p[k] for k in range(3)]
         v = [r[k] - p[k] for k in range(3)]
@@ -496,11 +560,10 @@ def pack_normals(sites, positions):
         for c in corners:
             sums[c] = [s + a for s, a in zip(sums[c], area)]
     packed = []
-    for x, y, z in sums:
-        length = math.sqrt(x * x + y * y + z * z)
-        scale = 1 / length if 0 < length < math.inf else 0.0
-        scale = scale if 0 < scale < math.inf else 0.0
-        packed.append(struct.pack("<3f", *((f32(s * scale) for s in (x, y, z)) if scale > 0 else (0.0, 0.0, 0.0))))
+    for site, total in enumerate(sums):
+        bits = corrections[site] if corrections is not None else (0, 0)
+        u, v = (struct.unpack("<f", struct.pack("<I", b))[0] for b in bits)
+        packed.append(struct.pack("<3f", *(f32(x) for x in turned(total, edges[site] or [0.0] * 3, u, v))))
     return b"".join(packed[site] for site in sites.of_element)
 
 
@@ -508,10 +571,11 @@ def decode_static(attribute, grid, faces):
     """The bytes of all values, element after element."""
     section = read_body(attribute)
     decoder = IntervalDecoder(section)
-    sites = decode_sites(decoder, attribute.domain, grid, faces)
     if attribute.categorical():
-        integers = decode_categories(decoder, faces, attribute.channels[0].top)
+        integers = decode_categories(decoder, attribute.domain, faces, attribute.channels[0].top)
+        sites = Sites(None, None, list(range(len(integers))))
     else:
+        sites = decode_sites(decoder, attribute.domain, grid, faces)
         tops = [channel.top for channel in attribute.channels]
         integers = decode_values(decoder, sites, tops, attribute.semantic == TEXTURE_COORDINATE)
     exceptions = {}

@@ -375,7 +375,7 @@ class FileReader:
             last = file.attribute_groups[-1]
             require((part.first_frame, part.index) > (last.first_frame, last.index), "agrp: out of order")
         owner = [a for a in file.attributes if a.shot == part.shot and a.index == part.index]
-        require(owner[0].animated() and not owner[0].computed() if owner else not file.sound(), "agrp: no animated attribute of this index")
+        require(owner[0].in_groups() if owner else not file.sound(), "agrp: no animated attribute of this index")
         if file.sound():
             group = file.groups[-1] if file.groups else None
             require(group is not None and (group.shot, group.first_frame, group.frame_count) ==

@@ -2,7 +2,7 @@
 from . import fast
 from .arithmetic import sum32
 from .attribute_chunks import read_group_body
-from .attributes import animated_sites, decode_static, pack_frame, pack_normals
+from .attributes import animated_sites, decode_static, pack_frame, pack_normals, site_numbers
 from .container import CONTINUES, FAST, LOSSLESS, MAIN, THESIS, WEAK_PRIOR, Reference, read_group
 from .corrections import Corrections
 from .errors import Corrupt, Truncated, require
@@ -186,11 +186,15 @@ class Decoder:
             return decode_static(attribute, shot.output_grid, shot.faces)
         key = (attribute.shot, attribute.index)
         if key not in self.sites:
-            sites = animated_sites(attribute, shot.output_grid, shot.faces)
-            self.sites[key] = (sites, None if attribute.computed() else SiteShot(sites))
-        sites, site_shot = self.sites[key]
-        if attribute.computed():
-            return pack_normals(sites, self.frame(t)[0])
+            sites, corrections = animated_sites(attribute, shot.output_grid, shot.faces)
+            self.sites[key] = (sites, corrections, SiteShot(sites) if attribute.in_groups() else None)
+        sites, numbers, site_shot = self.sites[key]
+        if attribute.in_groups():
+            numbers = self.coded_numbers(attribute, key, site_shot, t)
+        return pack_normals(sites, self.frame(t)[0], numbers) if attribute.computed() else pack_frame(attribute, sites, numbers)
+
+    def coded_numbers(self, attribute, key, site_shot, t):
+        """Section 10: the numbers of every site in frame t."""
         first = self.file.groups[self.number_of(t)].first_frame
         if (key, first) not in self.parts:
             self.parts[key, first] = self.attribute_group(attribute, first, site_shot)
@@ -198,12 +202,12 @@ class Decoder:
         coordinates = [None] * len(site_shot.rows)
         for r, site in enumerate(site_shot.output):
             coordinates[site] = [x for part in parts for x in part.position(r, t - first)]
-        return pack_frame(attribute, sites, scales, coordinates)
+        return site_numbers(attribute, scales, coordinates)
 
     def attribute_group(self, attribute, first, site_shot):
         for part in self.file.attribute_groups:
             if (part.index, part.first_frame) == (attribute.index, first):
-                scales, payloads = read_group_body(part, attribute.channel_count)
+                scales, payloads = read_group_body(part, attribute.coded_channels())
                 return scales, [decode_part(payload, part, site_shot) for payload in payloads]
         raise Corrupt("an attribute is missing in a group")
 

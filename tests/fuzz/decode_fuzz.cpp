@@ -24,6 +24,27 @@ std::vector<uint8_t> decode_attributes(reeb::Decoder& decoder, uint32_t frame) {
   return out;
 }
 
+/// The values of attributes at the render vertices of a mesh that is split by all of them.
+std::vector<uint8_t> decode_render_values(reeb::Decoder& decoder, uint32_t frame) {
+  std::vector<reeb::Attribute> attributes;
+  std::vector<uint32_t> indices;
+  std::vector<uint8_t> out;
+  std::unique_ptr<const reeb::RenderMesh> mesh;
+  if (!decoder.attributes(frame, attributes, indices).ok()) return out;
+  if (!decoder.make_render_mesh(frame, indices, mesh).ok()) return out;
+  for (const uint32_t v : mesh->triangles) {
+    if (v >= mesh->vertex_count()) __builtin_trap();
+  }
+  for (size_t i = 0; i < indices.size(); ++i) {
+    const size_t elements = std::max(mesh->triangles.size() / 3, mesh->source_vertex.size()) + 1;
+    std::vector<uint8_t> values(elements * attributes[i].element_bytes());
+    const reeb::ValueTarget target{values.data(), 0, elements};
+    if (decoder.decode_values(frame, indices[i], mesh.get(), target).ok())
+      out.insert(out.end(), values.begin(), values.end());
+  }
+  return out;
+}
+
 /// Attributes and positions of all frames.
 std::vector<uint8_t> decode(std::span<const uint8_t> bytes, bool backwards) {
   reeb::DecodeOptions options;
@@ -41,6 +62,8 @@ std::vector<uint8_t> decode(std::span<const uint8_t> bytes, bool backwards) {
       if (corner >= connectivity->vertex_count) __builtin_trap();
     }
     frames[frame] = decode_attributes(*decoder, frame);
+    const std::vector<uint8_t> rendered = decode_render_values(*decoder, frame);
+    frames[frame].insert(frames[frame].end(), rendered.begin(), rendered.end());
     std::vector<float> xyz(size_t{connectivity->vertex_count} * 3);
     if (!decoder->decode_frame(frame, xyz.data()).ok()) continue;
     const auto* raw = reinterpret_cast<const uint8_t*>(xyz.data());

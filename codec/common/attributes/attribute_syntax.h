@@ -24,6 +24,16 @@ struct Sites {
   }
 };
 
+/// True where values are names, not numbers to predict: then elements are sites, without a mesh.
+inline bool is_category(const AttributeHeader& h, const AttributeBody& body) {
+  constexpr uint64_t kMaxTop = uint64_t{1} << 30;
+  const bool of_faces = h.domain == Domain::kFace &&
+                        (h.semantic == Semantic::kMaterial || h.semantic == Semantic::kGroup);
+  const bool of_corners = h.domain == Domain::kCorner && h.semantic == Semantic::kIndex;
+  return (of_faces || of_corners) && !h.animated() && h.channel_count == 1 &&
+         h.type != ValueType::kBinary32 && body.channels[0].top <= kMaxTop;
+}
+
 /// `seam(a, b)` tells an encoder whether the values of two corners differ.
 template <class Coder, class Seam>
 Sites code_sites(Coder& coder, Domain domain, const ShotSurface& surface, Seam seam) {
@@ -36,14 +46,6 @@ Sites code_sites(Coder& coder, Domain domain, const ShotSurface& surface, Seam s
   return {std::move(mesh), std::move(wedges.of_corner)};
 }
 
-/// True where values are names, not numbers to predict.
-inline bool is_category(const AttributeHeader& h, const AttributeBody& body) {
-  constexpr uint64_t kMaxTop = uint64_t{1} << 30;
-  return (h.semantic == Semantic::kMaterial || h.semantic == Semantic::kGroup) &&
-         h.domain == Domain::kFace && h.channel_count == 1 && h.type != ValueType::kBinary32 &&
-         body.channels[0].top <= kMaxTop;
-}
-
 /// Codes the integers, [site][channel]: complete with encoders, filled in with decoders.
 template <class Coder>
 Status code_integers(Coder& coder, const AttributeHeader& h, const AttributeBody& body,
@@ -54,7 +56,7 @@ Status code_integers(Coder& coder, const AttributeHeader& h, const AttributeBody
   if (!is_category(h, body))
     return code_values(coder, sites, tops, h.semantic == Semantic::kTextureCoordinate, integers);
   const FaceCorners corners(surface.connectivity);
-  return CategorySyntax(corners, tops[0]).code(coder, integers);
+  return CategorySyntax(corners, h.domain == Domain::kCorner, tops[0]).code(coder, integers);
 }
 
 /// A binary32 in place of what the integer stands for.

@@ -1,4 +1,5 @@
-// Syntax of integers that name something - materials, groups - face after face in output order.
+// Syntax of integers that name something: materials and groups, face after face in output order;
+// places in a list of the source, corner after corner.
 #pragma once
 
 #include <algorithm>
@@ -42,71 +43,92 @@ class RecentValues {
 
 class CategorySyntax {
  public:
-  CategorySyntax(const FaceCorners& corners, uint32_t top) : corners_(corners), top_(top) {}
+  /// Of faces or, `of_corners`, of corners.
+  CategorySyntax(const FaceCorners& corners, bool of_corners, uint32_t top)
+      : corners_(corners), of_corners_(of_corners), top_(top) {}
 
-  /// Codes one value per face, each 0 .. top: complete with encoders, filled in with decoders.
+  /// Codes one value per element, each 0 .. top: complete with encoders, filled in with decoders.
   template <class Coder>
   Status code(Coder& coder, std::vector<uint32_t>& values) {
-    const auto count = static_cast<uint32_t>(corners_.first.size() - 1);
+    const auto faces = static_cast<uint32_t>(corners_.first.size() - 1);
+    const uint32_t count = of_corners_ ? corners_.count() : faces;
     values.resize(count);
-    for (uint32_t face = 0; face < count; ++face) {
-      values[face] = code_face(coder, face, values);
-      recent_.use(values[face]);
+    for (uint32_t e = 0; e < count; ++e) {
+      values[e] = code_element(coder, e, values);
+      if (!of_corners_) recent_.use(values[e]);
       if (ran_dry(coder)) return Status::corrupt("the values of an attribute are cut off");
-      if (values[face] > top_) return Status::corrupt("an attribute's value is out of range");
+      if (values[e] > top_) return Status::corrupt("an attribute's value is out of range");
     }
     return {};
   }
 
  private:
-  /// Of the faces across the edges of a face, those before it in order.
+  /// Of the elements next to one, those before it in order.
   struct Around {
-    uint32_t same = 0;   ///< with the value of the face before
+    uint32_t same = 0;   ///< with the value of the element before
     uint32_t other = 0;  ///< with another
     uint32_t value = 0;  ///< the first such
   };
 
-  Around look_around(uint32_t face, uint32_t before, const std::vector<uint32_t>& values) const {
+  /// Calls visit(e) for the faces across the edges of a face, or for the corners that joints
+  /// connect with a corner: across the edge from it, then across the edge to it.
+  template <class Visit>
+  void for_each_near(uint32_t element, Visit visit) const {
+    const auto& twin = corners_.twin;
+    if (of_corners_) {
+      if (twin[element] != kNoTwin) visit(corners_.next(twin[element]));
+      const uint32_t into = twin[corners_.previous(element)];
+      if (into != kNoTwin) visit(into);
+      return;
+    }
+    for (uint32_t c = corners_.first[element]; c < corners_.first[element + 1]; ++c) {
+      if (twin[c] != kNoTwin) visit(corners_.face[twin[c]]);
+    }
+  }
+
+  Around look_around(uint32_t element, uint32_t before, const std::vector<uint32_t>& values) const {
     Around out;
-    for (uint32_t c = corners_.first[face]; c < corners_.first[face + 1]; ++c) {
-      if (corners_.twin[c] == kNoTwin) continue;
-      const uint32_t across = corners_.face[corners_.twin[c]];
-      if (across >= face) continue;
-      if (values[across] == before) {
+    for_each_near(element, [&](uint32_t near) {
+      if (near >= element) return;
+      if (values[near] == before) {
         ++out.same;
       } else if (out.other++ == 0) {
-        out.value = values[across];
+        out.value = values[near];
       }
-    }
+    });
     return out;
   }
 
   template <class Coder>
-  uint32_t code_face(Coder& coder, uint32_t face, const std::vector<uint32_t>& values) {
-    const uint32_t value = values[face];
-    if (face == 0) return code_new(coder, value);
-    const uint32_t before = values[face - 1];
-    const Around around = look_around(face, before, values);
+  uint32_t code_element(Coder& coder, uint32_t element, const std::vector<uint32_t>& values) {
+    const uint32_t value = values[element];
+    if (element == 0) return code_new(coder, value);
+    const uint32_t before = values[element - 1];
+    const Around around = look_around(element, before, values);
     const uint32_t same = std::min(around.same, 2u), other = std::min(around.other, 2u);
     last_ = !same_[same][other][last_ ? 1 : 0].code(coder, value == before);
     if (!last_) return before;
     if (other > 0 && across_[same].code(coder, value == around.value)) return around.value;
+    if (of_corners_) return code_new(coder, value);
     const uint32_t rank = rank_.code(coder, recent_.rank(value));
     return rank < recent_.count() ? recent_[rank] : code_new(coder, value);
   }
 
+  // Relative to the one before or, as lists are numbered in the order of corners, to the highest.
   template <class Coder>
   uint32_t code_new(Coder& coder, uint32_t value) {
     const auto gap = static_cast<int64_t>(value) - newest_;
-    newest_ += new_.code(coder, static_cast<int32_t>(gap));
-    newest_ = std::clamp<int64_t>(newest_, 0, int64_t{top_} + 1);
-    return static_cast<uint32_t>(newest_);
+    const int64_t coded = newest_ + new_.code(coder, static_cast<int32_t>(gap));
+    const int64_t clamped = std::clamp<int64_t>(coded, 0, int64_t{top_} + 1);
+    newest_ = of_corners_ ? std::max(newest_, clamped) : clamped;
+    return static_cast<uint32_t>(clamped);
   }
 
   const FaceCorners& corners_;
+  const bool of_corners_;
   const uint32_t top_;
   RecentValues recent_;
-  bool last_ = false;  ///< the face before differs from the one before it
+  bool last_ = false;  ///< the element before differs from the one before it
   int64_t newest_ = -1;
   std::array<std::array<std::array<AdaptiveBit, 2>, 3>, 3> same_;
   std::array<AdaptiveBit, 3> across_;

@@ -17,6 +17,9 @@ struct FaceCorners {
   uint32_t next(uint32_t corner) const {
     return corner + 1 < first[face[corner] + 1] ? corner + 1 : first[face[corner]];
   }
+  uint32_t previous(uint32_t corner) const {
+    return corner > first[face[corner]] ? corner - 1 : first[face[corner] + 1] - 1;
+  }
 
   const std::vector<uint32_t>& vertex;  ///< of each corner; of the connectivity, which must stay
   std::vector<uint32_t> first;          ///< corner of each face; one more at the end

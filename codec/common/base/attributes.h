@@ -40,9 +40,12 @@ struct Attribute {
   /// largest number); empty = exact. Asked of an encoder; of no meaning in what is decoded.
   std::vector<double> max_error;
   /// Degrees, 0 = never: normals (three channels of binary32 at vertices or corners) are computed
-  /// from decoded positions where none is further off; a static attribute's in the first frame.
-  /// Then they are animated in what is decoded. Asked of an encoder, too.
+  /// from decoded positions where they are not further off; a static attribute's in the first
+  /// frame. Then they are animated in what is decoded. Asked of an encoder, too.
   double max_angle = 0;
+  /// Degrees, 0 = none: what those further off are turned to is at most so far off. Where there are
+  /// any, and this is 0 or cannot be done, the attribute is coded as any other.
+  double corrected_angle = 0.5;
   /// [frame][element][channel], numbers of `type` as the machine keeps them. Elements are the
   /// vertices, the corners, or the faces of the shot's connectivity, in its order, or the shot.
   std::vector<uint8_t> values;

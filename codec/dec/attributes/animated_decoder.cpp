@@ -1,6 +1,7 @@
 #include "codec/dec/attributes/animated_decoder.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -59,13 +60,22 @@ AttributeSurface attribute_surface(Sites sites) {
   return out;
 }
 
-Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface, Sites& out) {
+Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface, Sites& out,
+                              std::vector<float>& corrections) {
   AttributeBody body;
   std::span<const uint8_t> section;
   if (Status s = read_attribute_body(chunk, body, section); !s.ok()) return s;
   IntervalDecoder coder(section);
   out = code_sites(coder, chunk.header.domain, surface, [](uint32_t, uint32_t) { return false; });
-  return coder.overrun() ? Status::corrupt("the seams of an attribute are cut off") : Status();
+  if (!body.channels.empty()) {
+    std::vector<uint32_t> integers;
+    if (Status s = code_integers(coder, chunk.header, body, surface, out.mesh, integers); !s.ok())
+      return s;
+    for (size_t i = 0; i < integers.size(); ++i)
+      corrections.push_back(std::bit_cast<float>(
+          binary32_bits(body.channels[i % body.channels.size()], integers[i])));
+  }
+  return coder.overrun() ? Status::corrupt("the sites of an attribute are cut off") : Status();
 }
 
 uint64_t attribute_surface_memory(uint64_t elements) {
@@ -91,8 +101,8 @@ Status read_attribute_group(const AttributeHeader& header, const AttributeGroupC
   AttributeGroupBody body;
   ByteReader in(chunk.sections);
   if (Status s = read_header(in, "agrp", body); !s.ok()) return s;
-  const uint32_t parts = (header.channel_count + kPart - 1) / kPart;
-  if (body.scales.size() != header.channel_count || body.parts.size() != parts)
+  const uint32_t parts = (header.coded_channels() + kPart - 1) / kPart;
+  if (body.scales.size() != header.coded_channels() || body.parts.size() != parts)
     return Status::corrupt("agrp: not a scale for every channel, or a part for every three");
   for (const ChannelScale& s : body.scales) out.scales.push_back(s.scale);
   for (const ChannelPart& p : body.parts) {
@@ -122,10 +132,11 @@ Status decode_attribute_group(const AttributeGroupParts& parts, const AttributeS
 std::vector<uint8_t> attribute_frame(const AttributeHeader& header, const AttributeSurface& surface,
                                      const AttributeFrames& frames, uint32_t t) {
   const size_t sites = surface.surface.output.size();
-  const size_t size = size_of(header.type), bytes = header.channel_count * size;
+  const uint32_t channels = header.coded_channels();
+  const size_t size = size_of(header.type), bytes = channels * size;
   std::vector<uint8_t> numbers(sites * bytes);
   std::vector<float> coordinates(kPart * sites);
-  for (uint32_t k = 0; k < header.channel_count; ++k) {
+  for (uint32_t k = 0; k < channels; ++k) {
     if (k % kPart == 0) frames.parts[k / kPart].frame(t, coordinates.data(), kPart);
     for (size_t i = 0; i < sites; ++i)
       store(header.type, frames.scales[k], coordinates[i * kPart + k % kPart],

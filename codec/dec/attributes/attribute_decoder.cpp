@@ -40,11 +40,13 @@ Status read_attribute_body(const AttributeChunk& chunk, AttributeBody& body,
                            std::span<const uint8_t>& section) {
   ByteReader in(chunk.body);
   if (Status s = read_header(in, "attr", body); !s.ok()) return s;
-  const size_t channels = chunk.header.animated() ? 0 : chunk.header.channel_count;
+  const size_t channels = chunk.header.in_groups() ? 0 : chunk.header.coded_channels();
   if (body.channels.size() != channels)
     return Status::corrupt("attr: not a header for every channel");
   for (const ChannelHeader& c : body.channels) {
     if (Status s = check_channel(chunk.header.type, c); !s.ok()) return s;
+    if (chunk.header.computed() && c.numbers != ChannelHeader::Numbers::kMultiples)
+      return Status::corrupt("attr: corrections that are no multiples");
   }
   section = chunk.body.subspan(in.position());
   return {};
@@ -130,8 +132,9 @@ Status decode_static_attribute(const AttributeChunk& chunk, const ShotSurface& s
   std::span<const uint8_t> section;
   if (Status s = read_attribute_body(chunk, body, section); !s.ok()) return s;
   IntervalDecoder coder(section);
-  const Sites sites =
-      code_sites(coder, h.domain, surface, [](uint32_t, uint32_t) { return false; });
+  Sites sites;
+  if (!is_category(h, body))
+    sites = code_sites(coder, h.domain, surface, [](uint32_t, uint32_t) { return false; });
   std::vector<uint32_t> integers;
   if (Status s = code_integers(coder, h, body, surface, sites.mesh, integers); !s.ok()) return s;
   std::vector<NumberException> exceptions;

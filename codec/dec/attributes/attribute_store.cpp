@@ -39,7 +39,8 @@ uint64_t KeptAttribute::bytes() const {
   const uint64_t sites_bytes =
       (sites.triangles.size() + sites.grid.size() + sites.vertex.size()) * sizeof(uint32_t);
   return attribute.values.size() + surface.of_element.size() * sizeof(uint32_t) + sites_bytes +
-         (header.animated() ? kept_memory(surface.surface) : 0);
+         corrections.size() * sizeof(float) +
+         (header.in_groups() ? kept_memory(surface.surface) : 0);
 }
 
 // What an animated attribute's groups, or its normals, are decoded on.
@@ -47,9 +48,9 @@ Status AttributeStore::open_sites(const AttributeChunk& chunk, const ShotSurface
                                   KeptAttribute& kept) {
   if (Status s = describe_attribute(chunk, kept.attribute); !s.ok()) return s;
   Sites sites;
-  if (Status s = decode_attribute_sites(chunk, surface, sites); !s.ok()) return s;
-  if (chunk.header.computed()) {
-    kept.sites = std::move(sites.mesh);
+  if (Status s = decode_attribute_sites(chunk, surface, sites, kept.corrections); !s.ok()) return s;
+  if (chunk.header.computed()) kept.sites = sites.mesh;
+  if (!chunk.header.in_groups()) {
     kept.surface.of_element = std::move(sites.of_element);
     return {};
   }
@@ -67,11 +68,19 @@ void AttributeStore::get_static(const std::shared_ptr<const KeptAttribute>& kept
 }
 
 Status AttributeStore::get_normals(const std::shared_ptr<const KeptAttribute>& kept,
-                                   std::span<const float> xyz, SiteNumbers& out) {
-  constexpr uint64_t kPerSite = 3 * (3 * sizeof(float) + sizeof(double));
+                                   std::span<const float> xyz, const SiteNumbers& corrections,
+                                   SiteNumbers& out) {
   out = {};
-  if (Status s = grow(kept->sites.count * kPerSite, out.lease); !s.ok()) return s;
-  const std::vector<float> normals = computed_normals(kept->sites, xyz);
+  const uint64_t own = uint64_t{kept->sites.count} * 8 * sizeof(float);
+  if (Status s = grow(turned_normals_memory(kept->sites) + own, out.lease); !s.ok()) return s;
+  std::vector<float> normals, turning(corrections.own.size() / sizeof(float));
+  if (!turning.empty()) std::memcpy(turning.data(), corrections.own.data(), corrections.own.size());
+  if (!kept->header.corrected()) {
+    normals = computed_normals(kept->sites, xyz);
+  } else {
+    normals =
+        turned_normals(kept->sites, xyz, kept->header.in_groups() ? turning : kept->corrections);
+  }
   out.bytes = 3 * sizeof(float);
   out.own.resize(normals.size() * sizeof(float));
   if (!out.own.empty()) std::memcpy(out.own.data(), normals.data(), out.own.size());
@@ -145,7 +154,7 @@ Status AttributeStore::get_frame(const std::shared_ptr<const KeptAttribute>& kep
   }
   const KeptAttribute& attribute = *group->attribute;
   out = {};
-  out.bytes = attribute.attribute.element_bytes();
+  out.bytes = attribute.header.coded_channels() * size_of(attribute.header.type);
   const uint64_t sites = attribute.surface.surface.output.size();
   if (Status s = grow(sites * (out.bytes + 3 * sizeof(float)), out.lease); !s.ok()) return s;
   out.own = attribute_frame(attribute.header, attribute.surface, group->frames, t);

@@ -19,8 +19,9 @@ namespace reeb {
 struct KeptAttribute {
   Attribute attribute;  ///< of an animated one, without values
   AttributeHeader header;
-  AttributeSurface surface;  ///< of an animated one
-  SiteMesh sites;            ///< of computed normals
+  AttributeSurface surface;        ///< of an animated one
+  SiteMesh sites;                  ///< of computed normals
+  std::vector<float> corrections;  ///< that turn them in all frames, [site][u, v]
   Lease lease;
 
   uint64_t bytes() const;  ///< that it takes
@@ -46,13 +47,15 @@ class AttributeStore {
              std::shared_ptr<const KeptAttribute>& out);
   /// The numbers of a static attribute.
   static void get_static(const std::shared_ptr<const KeptAttribute>& kept, SiteNumbers& out);
-  /// The numbers of an animated attribute in frame t of a group.
+  /// The numbers of an animated attribute in frame t of a group; of computed normals, the
+  /// corrections.
   Status get_frame(const std::shared_ptr<const KeptAttribute>& kept,
                    const AttributeGroupChunk& chunk, uint32_t t, unsigned threads,
                    const StopToken& stop, SiteNumbers& out);
-  /// Computed normals for positions of the vertices.
+  /// Computed normals for positions of the vertices; `corrections`: of the frame, where they differ
+  /// from frame to frame.
   Status get_normals(const std::shared_ptr<const KeptAttribute>& kept, std::span<const float> xyz,
-                     SiteNumbers& out);
+                     const SiteNumbers& corrections, SiteNumbers& out);
   /// What an attribute is, without values.
   Status describe(const AttributeChunk& chunk, Attribute& out);
   Status get_resource(const ResourceChunk& chunk, Resource& out);

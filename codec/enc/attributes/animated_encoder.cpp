@@ -55,6 +55,22 @@ SurfaceContext surface_of(SiteMesh sites) {
   return out;
 }
 
+float number(const Attribute& a, size_t i) {
+  switch (a.type) {
+    case ValueType::kBinary32:
+      return a.get<float>(i);
+    case ValueType::kI32:
+      return static_cast<float>(a.get<int32_t>(i));
+    case ValueType::kU16:
+    case ValueType::kU16Normalised:
+      return a.get<uint16_t>(i);
+    case ValueType::kU8:
+    case ValueType::kU8Normalised:
+      break;
+  }
+  return a.get<uint8_t>(i);
+}
+
 GroupHeader header_of(const AttributeGroupHeader& group, Profile profile) {
   GroupHeader h;
   h.first_frame = group.first_frame;
@@ -74,28 +90,11 @@ std::vector<uint8_t> payload_of(const GroupHeader& header, size_t sites,
 
 }  // namespace
 
-float AnimatedEncoder::number(size_t i) const {
-  switch (attribute_->type) {
-    case ValueType::kBinary32:
-      return attribute_->get<float>(i);
-    case ValueType::kI32:
-      return static_cast<float>(attribute_->get<int32_t>(i));
-    case ValueType::kU16:
-    case ValueType::kU16Normalised:
-      return attribute_->get<uint16_t>(i);
-    case ValueType::kU8:
-    case ValueType::kU8Normalised:
-      break;
-  }
-  return attribute_->get<uint8_t>(i);
-}
-
 Status AnimatedEncoder::begin(const Attribute& attribute, const ShotSurface& surface,
                               CodedAttribute& coded) {
   constexpr float kMaxInteger = 1 << 24;
-  attribute_ = &attribute;
   for (size_t i = 0; i < attribute.values.size() / size_of(attribute.type); ++i) {
-    const float x = number(i);
+    const float x = number(attribute, i);
     if (!std::isfinite(x))
       return Status::invalid("attribute \"" + attribute.name +
                              "\": a value that changes over time is not finite");
@@ -107,16 +106,22 @@ Status AnimatedEncoder::begin(const Attribute& attribute, const ShotSurface& sur
   coded.header = header_of(attribute);
   for (const std::string& name : attribute.names) coded.body.names.push_back({name});
   IntervalEncoder coder;
-  frame_elements_ = element_count(attribute.domain, surface.connectivity);
+  const size_t elements = element_count(attribute.domain, surface.connectivity);
   Sites sites = code_sites(coder, attribute.domain, surface, [&](uint32_t a, uint32_t b) {
-    return !same_always(attribute, frame_elements_, a, b);
+    return !same_always(attribute, elements, a, b);
   });
   coded.section = coder.finish();
+  begin(attribute, elements, std::move(sites));
+  return {};
+}
+
+void AnimatedEncoder::begin(const Attribute& attribute, size_t frame_elements, Sites sites) {
+  attribute_ = &attribute;
+  frame_elements_ = frame_elements;
   elements_.resize(sites.mesh.count);
   std::iota(elements_.begin(), elements_.end(), size_t{0});
   for (size_t e = 0; e < sites.of_element.size(); ++e) elements_[sites.of_element[e]] = e;
   surface_ = surface_of(std::move(sites.mesh));
-  return {};
 }
 
 std::vector<float> AnimatedEncoder::gather(uint32_t part, const std::vector<double>& scales,
@@ -128,7 +133,7 @@ std::vector<float> AnimatedEncoder::gather(uint32_t part, const std::vector<doub
     for (uint32_t t = 0; t < frames; ++t) {
       for (size_t i = 0; i < sites; ++i) {
         const size_t element = (first_frame + t) * frame_elements_ + elements_[i];
-        const auto x = static_cast<double>(number(element * channels + k));
+        const auto x = static_cast<double>(number(*attribute_, element * channels + k));
         out[(t * sites + i) * kPart + k % kPart] = static_cast<float>(x / scales[k]);
       }
     }

@@ -29,6 +29,8 @@ class AnimatedEncoder {
   /// for shot and index. kInvalidArgument where a number is not finite, or of 32 bits and beyond
   /// what binary32 has exactly.
   Status begin(const Attribute& attribute, const ShotSurface& surface, CodedAttribute& coded);
+  /// The same on sites that are known, of `frame_elements` elements.
+  void begin(const Attribute& attribute, size_t frame_elements, Sites sites);
 
   /// What follows the header of chunk `agrp`; `group`: shot, first frame in the sequence, count.
   /// `first_frame` is that in the shot.
@@ -39,7 +41,6 @@ class AnimatedEncoder {
   /// Coordinates of three channels, [frame][site][3].
   std::vector<float> gather(uint32_t part, const std::vector<double>& scales, uint32_t first_frame,
                             uint32_t frames) const;
-  float number(size_t index) const;
   /// `exact`: no error is allowed; else it is 1.
   std::vector<uint8_t> encode_part(uint32_t part, uint32_t first_frame,
                                    const AttributeGroupHeader& group,

@@ -40,6 +40,7 @@ Status check_attribute(const Shot& shot, const Attribute& a) {
   for (const double error : a.max_error) {
     if (!(error > 0) || !std::isfinite(error)) return wrong(" has an error that is not above 0");
   }
+  if (!(a.max_angle >= 0) || !(a.corrected_angle >= 0)) return wrong(" has an angle below 0");
   return {};
 }
 
@@ -108,7 +109,15 @@ class ShotAttributes {
 Status ShotAttributes::encode(const ElementOrder& order, const ShotSurface& surface, uint32_t index,
                               CodedAttribute& out) {
   Attribute arranged = order.arrange(shot_.attributes[index]);
-  if (compute_normals(arranged, surface, shot_.frame_count, positions_, out)) return {};
+  ComputedNormals normals;
+  if (compute_normals(arranged, surface, shot_.frame_count, positions_, normals)) {
+    out = std::move(normals.coded);
+    if (!out.header.in_groups()) return {};
+    Animated& a = animated_.emplace_back(Animated{index, std::move(normals.corrections), {}});
+    a.encoder.begin(a.attribute, element_count(a.attribute.domain, surface.connectivity),
+                    std::move(normals.sites));
+    return {};
+  }
   if (!arranged.animated) return encode_static_attribute(arranged, surface, out);
   Animated& a = animated_.emplace_back(Animated{index, std::move(arranged), {}});
   return a.encoder.begin(a.attribute, surface, out);

@@ -74,8 +74,11 @@ Status encode_static_attribute(const Attribute& attribute, const ShotSurface& su
   const ChosenNumbers chosen = choose_numbers(attribute);
   out.body.channels = chosen.channels;
   IntervalEncoder coder;
-  const Sites sites = code_sites(coder, attribute.domain, surface,
-                                 [&](uint32_t a, uint32_t b) { return differ(chosen, a, b); });
+  Sites sites;
+  if (!is_category(out.header, out.body)) {
+    sites = code_sites(coder, attribute.domain, surface,
+                       [&](uint32_t a, uint32_t b) { return differ(chosen, a, b); });
+  }
   ChosenNumbers numbers = gather(chosen, sites);
   if (Status s = code_integers(coder, out.header, out.body, surface, sites.mesh, numbers.integers);
       !s.ok())

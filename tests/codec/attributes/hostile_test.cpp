@@ -32,6 +32,7 @@ Bytes stream(Profile profile) {
     moving.max_error = {0.1, 0.1, 0.1, 0.2};
     a.attributes.push_back(moving);
   }
+  add_turned_normals(a);
   Sequence sequence = sequence_of({a, b});
   sequence.resources.push_back({"a.png", "image/png", Bytes(50, 7)});
   EncodeOptions options = quick_options();

@@ -48,6 +48,21 @@ Attribute flat_normals(const Shot& shot) {
   return out;
 }
 
+Vector vector_of(const Attribute& a, size_t element) {
+  Vector out;
+  for (size_t i = 0; i < 3; ++i) out[i] = double{a.get<float>(3 * element + i)};
+  return out;
+}
+
+/// Degrees between a normal and what it should be, of any length.
+double angle(const Attribute& a, size_t element, const Vector& wanted) {
+  const Vector n = vector_of(a, element);
+  const Vector across{n[1] * wanted[2] - n[2] * wanted[1], n[2] * wanted[0] - n[0] * wanted[2],
+                      n[0] * wanted[1] - n[1] * wanted[0]};
+  const double along = n[0] * wanted[0] + n[1] * wanted[1] + n[2] * wanted[2];
+  return std::atan2(std::hypot(across[0], across[1], across[2]), along) * 180 / 3.14159265358979;
+}
+
 }  // namespace
 
 TEST_CASE("hard edges stay hard in every frame, and cost seams alone", "[attributes]") {
@@ -98,12 +113,91 @@ TEST_CASE("normals that differ from computed ones are coded", "[attributes]") {
     std::swap_ranges(turned.values.begin() + static_cast<ptrdiff_t>(i),
                      turned.values.begin() + static_cast<ptrdiff_t>(i + 4),
                      turned.values.begin() + static_cast<ptrdiff_t>(i + 4));
+  turned.corrected_angle = 0;
   shot.attributes = {turned};
   EncodeOptions options;
   options.target = Target::kLossless;
   const Shot decoded = decode_or_fail(encode_or_fail(sequence_of({shot}), options).bytes).shots[0];
   CHECK(!decoded.attributes[0].animated);
   CHECK(decoded.attributes[0].values == turned.values);
+}
+
+TEST_CASE("normals that are turned move with the surface", "[attributes]") {
+  // A torus that turns around z: what is right in its first frame is right when turned as it is.
+  const Motion turn = [](const float* rest, double time, double* xyz) {
+    const double c = std::cos(2 * time), s = std::sin(2 * time);
+    const double x = double{rest[0]}, y = double{rest[1]};
+    xyz[0] = c * x - s * y;
+    xyz[1] = s * x + c * y;
+    xyz[2] = double{rest[2]};
+  };
+  Shot shot = animate(torus(10, 8), 4, turn);
+  Attribute wanted = flat_normals(shot);
+  std::vector<float> tilted;
+  const size_t count = shot.connectivity.corners.size();
+  for (size_t i = 0; i < count; ++i) {  // every second vertex towards (1, 2, 3), far over
+    const float far = shot.connectivity.corners[i] % 2 == 0 ? 0.0f : 0.4f;
+    for (size_t a = 0; a < 3; ++a)
+      tilted.push_back(wanted.get<float>(3 * i + a) + far * static_cast<float>(a + 1));
+  }
+  wanted.assign(std::span<const float>(tilted));
+  wanted.max_angle = 2;
+  wanted.corrected_angle = 0.25;
+  shot.attributes = {wanted};
+  EncodeOptions options;
+  options.target = Target::kLossless;
+  const Shot decoded = decode_or_fail(encode_or_fail(sequence_of({shot}), options).bytes).shots[0];
+  REQUIRE(decoded.attributes[0].animated);
+  REQUIRE(decoded.attributes[0].values.size() == 4 * count * 12);
+  for (uint32_t t = 0; t < 4; ++t) {
+    double worst[2] = {0, 0};
+    for (size_t i = 0; i < count; ++i) {
+      const double c = std::cos(2 * t / 4.0), s = std::sin(2 * t / 4.0);
+      const double x = double{tilted[3 * i]}, y = double{tilted[3 * i + 1]};
+      const Vector w{c * x - s * y, s * x + c * y, double{tilted[3 * i + 2]}};
+      double& worst_so_far = worst[shot.connectivity.corners[i] % 2];
+      worst_so_far = std::max(worst_so_far, angle(decoded.attributes[0], t * count + i, w));
+    }
+    CHECK(worst[0] < 1e-3);
+    CHECK(worst[1] < 0.26);
+    CHECK(worst[1] > 0.02);  // quantized
+  }
+}
+
+TEST_CASE("normals that turn by themselves are within their angle", "[attributes]") {
+  for (const Profile profile : {Profile::kMain, Profile::kFast}) {
+    Shot shot = animate(torus(8, 6), 5);
+    add_turned_normals(shot);
+    EncodeOptions options = quick_options();
+    options.group_length = 2;
+    options.profile = profile;
+    const Bytes bytes = encode_or_fail(sequence_of({shot}), options).bytes;
+    std::unique_ptr<Decoder> decoder;
+    REQUIRE(Decoder::open(bytes, {}, decoder).ok());
+    CHECK(decoder->info().attributes[0].header.flags == 7);
+    CHECK(decoder->info().attributes[1].header.flags == 15);
+    const Shot decoded = decode_or_fail(bytes).shots[0];
+    const Attribute &still = decoded.attributes[0], &turning = decoded.attributes[1];
+    const size_t corners = shot.connectivity.corners.size();
+    double worst = 0;
+    for (size_t v = 0; v < 48; ++v)
+      worst = std::max(worst, angle(still, v, vector_of(shot.attributes[0], v)));
+    for (size_t i = 0; i < 5 * corners; ++i) {  // faces come in another order
+      const uint32_t v = decoded.connectivity.corners[i % corners];
+      const auto& in = shot.connectivity.corners;
+      const auto at = static_cast<size_t>(std::find(in.begin(), in.end(), v) - in.begin());
+      const Vector wanted = vector_of(shot.attributes[1], i / corners * corners + at);
+      worst = std::max(worst, angle(turning, i, wanted));
+    }
+    CHECK(worst < 1.001);
+    CHECK(worst > 0.1);
+    for (const uint32_t t : {4u, 1u}) {
+      Attribute one;
+      REQUIRE(decoder->decode_attribute(t, 1, one).ok());
+      CHECK(std::equal(one.values.begin(), one.values.end(),
+                       turning.values.begin() + static_cast<ptrdiff_t>(t * corners * 12)));
+    }
+  }
 }
 
 TEST_CASE("bounds of groups hold all positions and no more", "[attributes]") {

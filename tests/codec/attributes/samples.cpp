@@ -1,5 +1,7 @@
 #include "tests/codec/attributes/samples.h"
 
+#include <cmath>
+
 namespace reeb::test {
 
 void add_all(Shot& shot, std::mt19937& random) {
@@ -23,7 +25,34 @@ void add_all(Shot& shot, std::mt19937& random) {
     out.back().names = {"left", "right \xC3\xA9", ""};
     add("uv", ValueType::kBinary32, 2, some<float>(2 * n, random, 0, 1, 1.0 / 64));
     out.back().semantic = Semantic::kTextureCoordinate;
+    add("place", ValueType::kI32, 1, some<int32_t>(n, random, -1, static_cast<double>(n), 1));
+    out.back().semantic = Semantic::kIndex;
   }
+}
+
+void add_turned_normals(Shot& shot) {
+  const auto& corners = shot.connectivity.corners;
+  std::vector<float> still, moving;
+  const auto add = [](std::vector<float>& to, double i, double t) {
+    const double turn = 2.4 * i + 0.3 * t, height = std::cos(1.7 * i + 0.2 * t);
+    const double across = std::sqrt(1 - height * height);
+    for (const double x : {across * std::cos(turn), across * std::sin(turn), height})
+      to.push_back(static_cast<float>(x));
+  };
+  for (uint32_t v = 0; v < shot.connectivity.vertex_count; ++v) add(still, v, 0);
+  for (uint32_t t = 0; t < shot.frame_count; ++t) {
+    for (const uint32_t v : corners) add(moving, v, t);
+  }
+  Attribute a = make("still", Domain::kVertex, ValueType::kBinary32, 3, still);
+  a.semantic = Semantic::kNormal;
+  a.max_angle = 2;
+  a.corrected_angle = 1;
+  shot.attributes.push_back(a);
+  a.name = "turning";
+  a.domain = Domain::kCorner;
+  a.animated = true;
+  a.assign(std::span<const float>(moving));
+  shot.attributes.push_back(a);
 }
 
 }  // namespace reeb::test

@@ -34,4 +34,7 @@ std::vector<T> some(size_t count, std::mt19937& random, double low, double high,
 /// A static attribute of every domain and type.
 void add_all(Shot& shot, std::mt19937& random);
 
+/// Normals that point anywhere: static ones at vertices, animated ones at corners, to 1 degree.
+void add_turned_normals(Shot& shot);
+
 }  // namespace reeb::test
