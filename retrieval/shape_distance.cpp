@@ -15,9 +15,11 @@ constexpr double kAreaStretch = 0.2, kAngleStretch = 0.5, kThickness = 0.5;
 constexpr double kAdjacency = 0.1;
 
 // Medians of the parts of a distance over generated figures and scanned, animated bodies: in units
-// of them the parts weigh the same.
+// of them users see the parts.
 constexpr double kTypicalCharts = 0.73, kTypicalHeat = 0.17, kTypicalWave = 0.22;
 constexpr double kTypicalThickness = 0.23, kTypicalStraightness = 0.066;
+
+constexpr double kRounding = 0.01;  // in such units: what the bytes of a signature round off
 
 using Values = std::vector<float>;
 
@@ -119,14 +121,19 @@ ChartMatch match_charts(const Signature& a, const Signature& b) {
 }
 
 ShapeDistance shape_distance(const Signature& a, const Signature& b) {
-  ShapeDistance d;
-  d.charts = match_charts(a, b).distance / kTypicalCharts;
-  d.spectrum = 0.5 * (mean_difference(a.heat, b.heat) / kTypicalHeat +
-                      mean_difference(a.wave, b.wave) / kTypicalWave);
-  d.body = 0.5 * (shape_difference(a.thickness, b.thickness) / kTypicalThickness +
-                  mean_difference(a.straightness, b.straightness) / kTypicalStraightness);
-  d.total = (d.charts + 2 * d.spectrum + 2 * d.body) / 5;  // every part once
-  return d;
+  const double charts = match_charts(a, b).distance / kTypicalCharts;
+  const double heat = mean_difference(a.heat, b.heat) / kTypicalHeat;
+  const double wave = mean_difference(a.wave, b.wave) / kTypicalWave;
+  const double thickness = shape_difference(a.thickness, b.thickness) / kTypicalThickness;
+  const double straightness =
+      mean_difference(a.straightness, b.straightness) / kTypicalStraightness;
+  double product = 1;
+  for (const double part : {charts, heat, wave, thickness, straightness})
+    product *= part + kRounding;
+  return {.charts = charts,
+          .spectrum = 0.5 * (heat + wave),
+          .body = 0.5 * (thickness + straightness),
+          .total = std::max(0.0, std::pow(product, 1.0 / 5) - kRounding)};
 }
 
 }  // namespace reeb::retrieval

@@ -22,13 +22,13 @@ inline constexpr uint32_t kUnmatched = 0xffffffffu;
 /// each other being preferred to others as alike.
 ChartMatch match_charts(const Signature& a, const Signature& b);
 
-/// Parts of the distance, each in units of what is typical between different shapes, so that they
-/// add up.
+/// Parts of the distance, in units of what is typical between different shapes.
 struct ShapeDistance {
   double charts = 0;    ///< match_charts
   double spectrum = 0;  ///< heat and wave kernel signatures
   double body = 0;      ///< local thickness, whatever the size, and straightness
-  double total = 0;     ///< mean of the five parts, the latter two being two each
+  double total = 0;     ///< geometric mean of the five parts, the latter two being two each: what
+                        ///< one part tells for sure is not lost among the doubts of the others
 };
 
 /// Neither signature is empty.

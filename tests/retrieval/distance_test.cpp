@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -82,6 +83,27 @@ TEST_CASE("Charts without a match count by their size", "[distance]") {
   CHECK(match_charts(b, a).distance == Approx(match.distance));
   CHECK(match_charts(a, a).distance == Approx(0).margin(1e-6));
   CHECK(match_charts(a, {}).distance == 1);
+}
+
+TEST_CASE("What one part tells for sure counts more than the doubts of the others", "[distance]") {
+  Signature a;
+  a.heat.assign(kSpectralValues, 1);
+  a.wave.assign(kSpectralValues, 1);
+  a.thickness.assign(kBodyValues, 1);
+  a.straightness.assign(kBodyValues, 0.5f);
+  CHECK(shape_distance(a, a).total == Approx(0).margin(1e-12));
+  // Twice what is typical in three parts; a thickness that is another everywhere is another size.
+  Signature b = a;
+  for (float& v : b.heat) v += 0.34f;
+  for (float& v : b.wave) v -= 0.44f;
+  for (float& v : b.thickness) v += 3;
+  for (float& v : b.straightness) v += 0.132f;
+  const ShapeDistance d = shape_distance(a, b);
+  CHECK(d.spectrum == Approx(2));
+  CHECK(d.body == Approx(1));
+  CHECK(d.charts == 0);
+  CHECK(d.total == Approx(std::pow(0.01 * 0.01 * 2.01 * 2.01 * 2.01, 0.2) - 0.01));
+  CHECK(shape_distance(b, a).total == Approx(d.total));
 }
 
 TEST_CASE("Of charts alike the one beside the matched neighbour is taken", "[distance]") {
