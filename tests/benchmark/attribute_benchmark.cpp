@@ -1,12 +1,12 @@
 // What attributes cost in Reeb and in others, in one run, all bytes counted.
 //
 // attribute_benchmark [MESH.obj...]: CSV on standard output: mesh, attribute, codec, setting,
-// bytes. Of each mesh what its texture coordinates (to 12 bits), colours (8 bits) and materials
-// (both exact) add to the file: to Reeb's at its defaults and to Draco's at its strongest, with
-// positions of 11 bits, as draco_encoder has them. What is decoded is compared; an error beyond
-// half a step ends the run. Then animated values: a wave over a sheet, 2,500 vertices and 120
-// frames, to 0.1 % of its range beside zfp in its accuracy mode, and exact beside fpzip, as frames
-// and as the grid that they are.
+// bytes. Of each mesh what its texture coordinates (to 12 bits), colours (8 bits; made where it has
+// none) and materials (both exact) add to the file: to Reeb's at its defaults and to Draco's at its
+// strongest, with positions of 11 bits, as draco_encoder has them. What is decoded is compared; an
+// error beyond half a step ends the run. Then animated values: a wave over a sheet, 2,500 vertices
+// and 120 frames, to 0.1 % of its range beside zfp in its accuracy mode, and exact beside fpzip, as
+// frames and as the grid that they are.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <fpzip.h>
@@ -271,17 +271,32 @@ Attribute make(Semantic semantic, Domain domain, ValueType type, uint32_t channe
   return a;
 }
 
-void measure(const Mesh& mesh) {
+/// RGB that changes smoothly over the box of a mesh, for meshes without colours.
+std::vector<uint8_t> made_colours(const Shot& shot) {
+  std::vector<uint8_t> out;
+  const auto [low, high] = std::minmax_element(shot.positions.begin(), shot.positions.end());
+  const double scale = 1 / std::max(double{*high} - double{*low}, 1e-30);
+  for (size_t i = 0; i < shot.positions.size(); ++i) {
+    const double x = (double{shot.positions[i]} - double{*low}) * scale;
+    const double y = (double{shot.positions[i - i % 3]} - double{*low}) * scale;
+    out.push_back(static_cast<uint8_t>(127.5 + 127 * std::sin(6 * x + 4 * y)));
+  }
+  return out;
+}
+
+void measure(Mesh mesh) {
   if (!mesh.uv.empty()) {
     Attribute uv = make(Semantic::kTextureCoordinate, Domain::kCorner, ValueType::kBinary32, 2);
     uv.assign(std::span<const float>(mesh.uv));
     uv.max_error.assign(2, texture_step(mesh.uv) / 2);
     compare(mesh, "uv", "12 bits", uv);
   }
-  if (!mesh.colours.empty()) {
+  const bool made = mesh.colours.empty();
+  if (made) mesh.colours = made_colours(mesh.shot);
+  {
     Attribute colour = make(Semantic::kColour, Domain::kVertex, ValueType::kU8Normalised, 3);
     colour.assign(std::span<const uint8_t>(mesh.colours));
-    compare(mesh, "colour", "exact", colour);
+    compare(mesh, "colour", made ? "exact (made)" : "exact", colour);
   }
   if (!mesh.materials.empty()) {
     Attribute material = make(Semantic::kMaterial, Domain::kFace, ValueType::kU16, 1);

@@ -184,3 +184,20 @@ TEST_CASE("bodies of attributes that make no sense are refused", "[attributes][h
   channel.step = 0.5;
   CHECK(decode({channel, channel}, Bytes(64)) == StatusCode::kCorrupt);
 }
+
+TEST_CASE("flags of attributes that make no sense are refused", "[attributes][hostile]") {
+  AttributeHeader header;
+  header.semantic = Semantic::kNormal;
+  header.channel_count = 3;
+  uint32_t allowed = 0;
+  for (uint32_t flags = 0; flags < 256; ++flags) {
+    header.flags = static_cast<uint8_t>(flags);
+    Bytes bytes;
+    allowed += write_header(header, "attr", bytes).ok() ? 1 : 0;
+  }
+  CHECK(allowed == 5);  // still, animated; computed, corrected, turning, of animated ones
+  header.channel_count = 2;
+  header.flags = AttributeHeader::kAnimated | AttributeHeader::kComputed;
+  Bytes bytes;
+  CHECK(!write_header(header, "attr", bytes).ok());
+}
