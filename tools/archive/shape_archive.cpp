@@ -48,7 +48,7 @@ bool from_json(const json& value, ArchivedFile& file) {
 class ShallowParser : public nlohmann::detail::json_sax_dom_parser<json> {
  public:
   using Base = nlohmann::detail::json_sax_dom_parser<json>;
-  explicit ShallowParser(json& root) : Base(root, true) {}
+  explicit ShallowParser(json& out) : Base(out, true) {}
 
   bool start_object(std::size_t size) { return enter() && Base::start_object(size); }
   bool start_array(std::size_t size) { return enter() && Base::start_array(size); }
