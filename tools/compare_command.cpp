@@ -4,6 +4,8 @@
 #include <optional>
 #include <sstream>
 
+#include "tools/attribute_metrics.h"
+#include "tools/attribute_rules.h"
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/frame_selection.h"
@@ -21,6 +23,7 @@ struct Options {
   FrameSelection frames;
   std::optional<double> kg_tolerance;
   std::optional<AbsoluteOrPercent> error_tolerance;
+  std::vector<std::pair<std::string, double>> attribute_tolerances;  ///< pattern, figure
   bool json = false;
   bool per_frame = false;
   bool allow_gaps = false;
@@ -101,11 +104,38 @@ struct Result {
   const Side& a;
   const Side& b;
   const Comparison& comparison;
+  const std::vector<AttributeComparison>& attributes;
   const std::vector<uint32_t>& numbers;  ///< of the frames compared
 };
 
 Json to_json(const ErrorFigures& f) {
   return {{"kg", f.kg}, {"rmse", f.rmse}, {"max_error", f.max_error}};
+}
+
+Json to_json(const Result& r, const AttributeComparison& a) {
+  Json json{{"name", a.name}, {"identical", a.identical}};
+  if (!a.problem.empty()) json["problem"] = a.problem;
+  json["elements"] = a.compared;
+  json["different"] = a.different;
+  if (a.whole) return json;
+  json["max_error"] = a.max_error;
+  if (a.semantic == Semantic::kNormal) json["max_angle"] = a.worst;
+  json["worst_frame"] = r.numbers[a.worst_frame];
+  return json;
+}
+
+std::string attribute_text(const Result& r, const AttributeComparison& a) {
+  if (!a.problem.empty()) return a.problem;
+  if (a.identical) return "identical";
+  if (a.whole) return grouped(a.different) + " of " + grouped(a.compared) + " differ";
+  std::string out;
+  if (a.semantic == Semantic::kNormal) {
+    out = "largest angle " + plain(a.worst, 5) + " degrees";
+  } else {
+    out = "maximum error";
+    for (const double error : a.max_error) out += " " + plain(error, 5);
+  }
+  return out + ", frame " + grouped(r.numbers[a.worst_frame]);
 }
 
 std::string json_text(const Options& o, const Result& r, bool within) {
@@ -126,6 +156,8 @@ std::string json_text(const Options& o, const Result& r, bool within) {
   };
   add_side("original", r.a);
   add_side("other", r.b);
+  json["attributes"] = Json::array();
+  for (const AttributeComparison& a : r.attributes) json["attributes"].push_back(to_json(r, a));
   if (o.per_frame) {
     json["per_frame"] = Json::array();
     for (const ErrorFigures& f : c.frames) json["per_frame"].push_back(to_json(f));
@@ -159,6 +191,8 @@ std::string plain_text(const Options& o, const Result& r) {
         << plain(side->bpvf(), 5) << " bits per vertex and frame\n";
   }
   if (c.identical) out << "the positions are identical\n";
+  for (const AttributeComparison& a : r.attributes)
+    out << "attribute " << a.name << ": " << attribute_text(r, a) << "\n";
   return out.str();
 }
 
@@ -176,6 +210,30 @@ std::string excess(const Options& o, const Comparison& c) {
     }
   }
   return out;
+}
+
+/// The same of attributes. What was not compared is over every tolerance.
+std::string excess(const Options& o, const std::vector<AttributeComparison>& attributes) {
+  std::string out;
+  for (const AttributeComparison& a : attributes) {
+    for (const auto& [pattern, limit] : o.attribute_tolerances) {
+      if (!fits_pattern(a.name, pattern) || a.figure() <= limit) continue;
+      out += (out.empty() ? "" : "; ") + ("attribute " + a.name) + " is over " + plain(limit, 6) +
+             ": " + (a.problem.empty() ? plain(a.figure(), 6) : a.problem);
+      break;
+    }
+  }
+  return out;
+}
+
+std::string parse_tolerance(const std::string& text, std::pair<std::string, double>& out) {
+  const size_t equals = text.rfind('=');
+  const bool good = equals != text.npos && equals > 0 &&
+                    CLI::detail::lexical_cast(text.substr(equals + 1), out.second) &&
+                    out.second >= 0;
+  if (!good) return "'" + text + "' is not NAME=TOLERANCE, >= 0";
+  out.first = text.substr(0, equals);
+  return {};
 }
 
 int report_difference(const Side& a, const Side& b, const Status& status, Console& console) {
@@ -206,8 +264,11 @@ int run(const Options& o) {
                                b.report.remainders);
   }
   if (!status.ok()) return report_difference(a, b, status, console);
-  const std::string over = excess(o, comparison);
-  const Result result{a, b, comparison, numbers};
+  const std::vector<AttributeComparison> attributes = compare_attributes(a.sequence, b.sequence);
+  std::string over = excess(o, comparison);
+  if (const std::string more = excess(o, attributes); !more.empty())
+    over += (over.empty() ? "" : "; ") + more;
+  const Result result{a, b, comparison, attributes, numbers};
   int exit_code = print(o.json ? json_text(o, result, over.empty()) : plain_text(o, result));
   for (const Side* side : {&a, &b})
     exit_code = std::max(exit_code, finish_damaged(console, side->damage(), o.keep_going));
@@ -249,6 +310,22 @@ void add_compare_command(CLI::App& app, int& exit_code) {
           "Error of a coordinate allowed, > 0, in units of the original, or as E% of the "
           "bounding-box diagonal of its sequence")
       ->type_name("E")
+      ->group("Tolerance (exit code 3 beyond)");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--attribute",
+          [o](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const std::string bad = parse_tolerance(text, o->attribute_tolerances.emplace_back());
+              if (!bad.empty()) throw CLI::ValidationError("--attribute", bad);
+            }
+          },
+          "What is allowed of an attribute, or of those that a pattern like 'v*' names, >= 0: the "
+          "largest error of a channel; of normals the largest angle in degrees; of whole numbers "
+          "and names how many differ. One that only one side has is over any. May be given several "
+          "times")
+      ->allow_extra_args(false)
+      ->type_name("NAME=E")
       ->group("Tolerance (exit code 3 beyond)");
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <memory>
+#include <set>
 
+#include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "tools/command.h"
 #include "tools/damage.h"
@@ -51,9 +53,11 @@ class StreamWriter {
     if (status.ok()) status = write_present();
     if (status.code() == StatusCode::kCorrupt && !searched_) status = write_after_search();
     if (!status.ok()) return fail(console_, status);
+    console_.say_all(notes_);
     console_.say(options_.output + ": " + counted(written_, "frame"));
-    return finish_damaged(console_, written_ == wanted_.size() ? "" : missing_text(),
-                          options_.keep_going);
+    const int exit_code = finish_damaged(console_, written_ == wanted_.size() ? "" : missing_text(),
+                                         options_.keep_going);
+    return std::max(exit_code, finish_damaged(console_, lost_text(), options_.keep_going));
   }
 
  private:
@@ -62,6 +66,17 @@ class StreamWriter {
   }
   std::string missing_text() const {
     return describe_missing(options_.input, missing_, decoder_.info().total_frames);
+  }
+
+  std::string lost_text() const {
+    std::string names;
+    for (const std::string& name : lost_) names += (names.empty() ? "" : ", ") + name;
+    for (const DamagedRange& range : decoder_.info().damaged) {
+      if (range.type == to_string(kAttributeChunk) || range.type == to_string(kResourceChunk))
+        names += (names.empty() ? "" : ", ") + ("what chunk " + range.type) + " at byte " +
+                 grouped(range.offset) + " held";
+    }
+    return names.empty() ? "" : options_.input + ": damaged and left out: " + names;
   }
 
   // Damage that checksums do not show is met while decoding: then all of it is looked for.
@@ -79,14 +94,41 @@ class StreamWriter {
     }
     if (frames.empty()) return Status::corrupt(missing_text());
     written_ = frames.size();
+    notes_.clear();
+    lost_.clear();
     return write_sequence(make_source(frames), options_.output,
                           {.format = options_.format,
                            .overwrite = options_.overwrite,
                            .threads = options_.threads,
-                           .progress = console_.bar("decoding")});
+                           .progress = console_.bar("decoding"),
+                           .notes = &notes_});
   }
 
-  FrameSource make_source(const std::vector<uint32_t>& frames) const {
+  Status decode(uint32_t frame, SourceFrame& out) {
+    Status status = decoder_.connectivity(frame, out.connectivity);
+    if (!status.ok()) return status;
+    out.positions.resize(size_t{3} * out.connectivity->vertex_count);
+    status = decoder_.decode_frame(frame, out.positions.data());
+    return status.ok() ? decode_attributes(frame, out.attributes) : status;
+  }
+
+  // Those that are damaged are left out, which is said in the end.
+  Status decode_attributes(uint32_t frame, std::vector<Attribute>& out) {
+    std::vector<Attribute> described;
+    std::vector<uint32_t> indices;
+    out.clear();
+    if (Status status = decoder_.attributes(frame, described, indices); !status.ok()) return status;
+    for (size_t i = 0; i < indices.size(); ++i) {
+      const Status status = decoder_.decode_attribute(frame, indices[i], out.emplace_back());
+      if (status.ok()) continue;
+      if (status.code() != StatusCode::kCorrupt) return status;
+      out.pop_back();
+      lost_.insert(described[i].name);
+    }
+    return {};
+  }
+
+  FrameSource make_source(const std::vector<uint32_t>& frames) {
     const StreamInfo& info = decoder_.info();
     FrameSource source;
     source.frame_rate = options_.frame_rate.value_or(info.frame_rate);
@@ -100,13 +142,16 @@ class StreamWriter {
       if (key == kSampleRateKey) source.frames_per_sample = std::strtod(value.c_str(), nullptr);
     }
     source.least_bytes = position_bytes(frames);
-    source.frame = [this, frames](uint32_t i, const Connectivity*& connectivity,
-                                  std::vector<float>& positions) {
-      Status status = decoder_.connectivity(frames[i] - 1, connectivity);
-      if (status.ok()) {
-        positions.resize(size_t{3} * connectivity->vertex_count);
-        status = decoder_.decode_frame(frames[i] - 1, positions.data());
-      }
+    for (uint32_t i = 0; i < info.resources.size(); ++i) {
+      Resource resource;
+      const Status status = decoder_.resource(i, resource);
+      if (status.ok())
+        source.resources.push_back(std::move(resource));
+      else
+        lost_.insert(info.resources[i].header.name);
+    }
+    source.frame = [this, frames](uint32_t i, SourceFrame& out) {
+      const Status status = decode(frames[i] - 1, out);
       return status.ok() ? status : named(status);
     };
     return source;
@@ -130,6 +175,8 @@ class StreamWriter {
   std::vector<StreamInfo::Gap> missing_;
   std::vector<uint32_t> wanted_;  ///< from 1
   size_t written_ = 0;
+  std::set<std::string> lost_;  ///< attributes and files that are damaged
+  std::vector<std::string> notes_;
   bool searched_ = false;
 };
 

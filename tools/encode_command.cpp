@@ -8,6 +8,7 @@
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/archive/shape_source.h"
+#include "tools/attribute_rules.h"
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/encoding_report.h"
@@ -44,6 +45,8 @@ struct Options {
   bool signature = false;
   bool no_report = false;
   bool keep_going = false;
+  bool embed = false;
+  std::vector<AttributeRule> attributes;
   FrameSelection frames;
   std::optional<double> frame_rate;
   std::optional<double> start_time;
@@ -52,12 +55,15 @@ struct Options {
   ConsoleOptions console;
 };
 
-/// What the sequence would take uncompressed: float32 positions, and the faces once per shot.
+/// What the sequence would take uncompressed: float32 positions, and the faces once per shot, and
+/// attributes and files as they are.
 uint64_t raw_bytes(const Sequence& sequence) {
   uint64_t bytes = 12 * vertex_frames(sequence);
   for (const Shot& shot : sequence.shots) {
     bytes += 4 * (shot.connectivity.face_sizes.size() + shot.connectivity.corners.size());
+    for (const Attribute& a : shot.attributes) bytes += a.values.size();
   }
+  for (const Resource& r : sequence.resources) bytes += r.bytes.size();
   return bytes;
 }
 
@@ -175,9 +181,34 @@ Status write_stream(const Options& o, const std::vector<uint8_t>& bytes, OutputS
   return keep_elsewhere(o.output, text, status);
 }
 
+/// "attributes: vt 1.2 kB, vn computed": what the file has, by name.
+std::string describe_attributes(const std::vector<uint8_t>& bytes) {
+  std::unique_ptr<Decoder> decoder;
+  if (!Decoder::open(bytes, {}, decoder).ok()) return {};
+  struct Part {
+    uint64_t bytes = 0;
+    bool computed = false;
+  };
+  std::vector<std::pair<std::string, Part>> parts;
+  const auto add = [&](const std::string& name, uint64_t size, bool computed) {
+    auto at = std::find_if(parts.begin(), parts.end(),
+                           [&](const auto& part) { return part.first == name; });
+    if (at == parts.end()) at = parts.insert(at, {name, {}});
+    at->second.bytes += size;
+    at->second.computed = at->second.computed || computed;
+  };
+  for (const auto& a : decoder->info().attributes) add(a.header.name, a.bytes, a.header.computed());
+  for (const auto& r : decoder->info().resources) add(r.header.name, r.bytes, false);
+  std::string out;
+  for (const auto& [name, part] : parts)
+    out += (out.empty() ? "attributes: " : ", ") + name + (part.computed ? " computed " : " ") +
+           byte_size(part.bytes);
+  return out;
+}
+
 /// Gives the exit code.
 int report(const Options& o, const Sequence& sequence, const ReadReport& read,
-           const EncodeStats& stats, Console& console) {
+           const std::vector<uint8_t>& bytes, const EncodeStats& stats, Console& console) {
   const double diagonal = bounding_diagonal(sequence);
   const double relative = diagonal > 0 ? 100 * stats.max_error / diagonal : 0;
   const double ratio = static_cast<double>(raw_bytes(sequence)) / static_cast<double>(stats.bytes);
@@ -193,6 +224,7 @@ int report(const Options& o, const Sequence& sequence, const ReadReport& read,
   if (!o.lossless)
     console.say("error: KG " + plain(stats.kg) + " %, RMSE " + plain(stats.rmse) + ", maximum " +
                 plain(stats.max_error) + " (" + plain(relative) + " % of the diagonal)");
+  if (const std::string kept = describe_attributes(bytes); !kept.empty()) console.say(kept);
   for (const EncodeStats::Section& s : stats.sections) {
     console.detail("  " + s.name + ": " + byte_size(static_cast<uint64_t>(s.bits / 8)));
   }
@@ -236,6 +268,21 @@ Status choose_frames(const Options& o, ReadReport& read, Sequence& sequence) {
   return {};
 }
 
+/// Attributes are told by the numbers of vertices, which then are lost.
+Status check_reorder(const Options& o, const Sequence& sequence) {
+  if (!o.encoder.reorder) return {};
+  std::string names;
+  for (const Shot& shot : sequence.shots) {
+    for (const Attribute& a : shot.attributes) names += (names.empty() ? "" : ", ") + a.name;
+    if (!names.empty()) break;
+  }
+  for (const Resource& r : sequence.resources) names += (names.empty() ? "" : ", ") + r.name;
+  if (names.empty()) return {};
+  return Status::invalid(
+      "--reorder does not keep attributes, and there are " + names +
+      "; leave it out, or drop them by --attribute '*=drop' and without --embed");
+}
+
 void keep_signature(Sequence& sequence, Console& console) {
   std::string complaint;
   const std::vector<SignedFrame> frames = sign_frames(sequence, kStoredSignatures, complaint);
@@ -256,12 +303,17 @@ int run(Options& o) {
   if (status.ok()) status = files.prepare({o.output});
   Sequence sequence;
   ReadReport read;
-  const ReadOptions reading{
-      .threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")};
+  const ReadOptions reading{.threads = o.threads,
+                            .allow_gaps = o.allow_gaps,
+                            .list_order = o.lossless,
+                            .embed = o.embed,
+                            .progress = console.bar("reading")};
   if (status.ok()) status = read_sequence(o.inputs, reading, sequence, read);
   if (!status.ok()) return fail(console, status);
   console.say_all(read.notes);
   status = choose_frames(o, read, sequence);
+  console.say_all(apply_attribute_rules(o.attributes, o.lossless, sequence));
+  if (status.ok()) status = check_reorder(o, sequence);
   if (status.ok()) status = check_room(o.output, likely_bytes(o, sequence));
   if (!status.ok()) return fail(console, status);
   console.detail(counted(sequence.frame_count(), "frame") + " of " +
@@ -294,7 +346,7 @@ int run(Options& o) {
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);
   const uint32_t total = read.stream ? read.stream->total_frames : 0;
-  return std::max(report(o, sequence, read, stats, console),
+  return std::max(report(o, sequence, read, bytes, stats, console),
                   finish_damaged(console, describe_missing(o.inputs.back(), read.missing, total),
                                  o.keep_going));
 }
@@ -414,6 +466,11 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", o->json, "Report as JSON on standard output");
   add_target_options(*command, *o);
   add_coding_options(*command, *o);
+  add_attribute_option(*command, o->attributes);
+  command
+      ->add_flag("--embed", o->embed,
+                 "Take along the material files (.mtl) that an OBJ names, and their textures")
+      ->group("Attributes");
   command->add_option("--fps", o->frame_rate, "Frames per second, > 0; default as in the input")
       ->check(check_positive)
       ->type_name("R")

@@ -46,6 +46,26 @@ void append(std::span<const float> values, std::vector<float>& out) {
   out.insert(out.end(), values.begin(), values.end());
 }
 
+// All but the values of frames.
+void begin_shot(const Shot& from, Shot& to) {
+  to.connectivity = from.connectivity;
+  to.attributes = from.attributes;
+  for (Attribute& a : to.attributes) {
+    if (a.animated) a.values.clear();
+  }
+}
+
+void append_attributes(const Shot& from, uint32_t frame, Shot& to) {
+  for (size_t i = 0; i < from.attributes.size(); ++i) {
+    const Attribute& a = from.attributes[i];
+    if (!a.animated) continue;
+    const size_t size = from.element_count(a.domain) * a.element_bytes();
+    const auto first = a.values.begin() + static_cast<std::ptrdiff_t>(frame * size);
+    auto& values = to.attributes[i].values;
+    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(size));
+  }
+}
+
 }  // namespace
 
 std::string FrameSelection::parse(const std::string& text, FrameSelection& out) {
@@ -111,11 +131,13 @@ Sequence pick_frames(const Sequence& sequence, const std::vector<uint32_t>& numb
   out.frame_rate = sequence.frame_rate;
   out.metadata = sequence.metadata;
   out.start_time = sequence.start_time;
+  out.resources = sequence.resources;
   if (ascending(numbers) && !numbers.empty()) out.start_time += numbers.front() - 1;
   visit_frames(sequence, numbers, [&](size_t shot, uint32_t frame, bool first) {
     const Shot& from = sequence.shots[shot];
-    if (first) out.shots.emplace_back().connectivity = from.connectivity;
+    if (first) begin_shot(from, out.shots.emplace_back());
     append(from.frame(frame), out.shots.back().positions);
+    append_attributes(from, frame, out.shots.back());
     ++out.shots.back().frame_count;
   });
   return out;

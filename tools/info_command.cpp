@@ -4,6 +4,7 @@
 
 #include "bitstream/container.h"
 #include "codec/dec/decoder.h"
+#include "tools/attribute_text.h"
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/encoding_report.h"
@@ -87,6 +88,30 @@ void add_report(const StreamInfo& info, Json& json) {
            : Json();
 }
 
+std::string time_of(const AttributeHeader& h) {
+  if (h.computed()) return "computed";
+  return h.animated() ? "animated" : "static";
+}
+
+void add_attributes(const StreamInfo& info, Json& json) {
+  json["attributes"] = Json::array();
+  for (const auto& a : info.attributes) {
+    json["attributes"].push_back({{"shot", a.header.shot + 1},
+                                  {"name", a.header.name},
+                                  {"semantic", to_string(a.header.semantic)},
+                                  {"domain", to_string(a.header.domain)},
+                                  {"type", to_string(a.header.type)},
+                                  {"channels", a.header.channel_count},
+                                  {"time", time_of(a.header)},
+                                  {"bytes", a.bytes}});
+  }
+  json["resources"] = Json::array();
+  for (const auto& r : info.resources) {
+    json["resources"].push_back(
+        {{"name", r.header.name}, {"media_type", r.header.media_type}, {"bytes", r.bytes}});
+  }
+}
+
 Json to_json(const std::string& name, const StreamInfo& info) {
   Json json{{"file", name},
             {"format_version", info.format_version},
@@ -123,6 +148,7 @@ Json to_json(const std::string& name, const StreamInfo& info) {
   for (size_t g = 0; g < info.bounds.size(); ++g)
     json["groups"][g]["box"] = to_json(info.bounds[g]);
   add_report(info, json);
+  add_attributes(info, json);
   for (const auto& gap : info.missing)
     json["missing"].push_back({{"first_frame", gap.first_frame + 1}, {"frames", gap.frame_count}});
   for (const auto& s : info.sections) json["sections"][s.name] = s.bytes;
@@ -158,6 +184,31 @@ void print_report(const StreamInfo& info, std::ostream& out) {
     out << "within " << point_text(box.low) << " to " << point_text(box.high) << "\n";
 }
 
+/// Names of attributes and files are of foreign origin.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+void print_attributes(const StreamInfo& info, std::ostream& out) {
+  if (!info.attributes.empty()) out << counted(info.attributes.size(), "attribute") << "\n";
+  for (const auto& a : info.attributes) {
+    const AttributeHeader& h = a.header;
+    out << "  " << printable(h.name) << ": " << to_string(h.semantic) << " of each "
+        << to_string(h.domain) << ", " << h.channel_count << " x " << to_string(h.type) << ", "
+        << time_of(h) << ", " << byte_size(a.bytes);
+    if (info.shots.size() > 1) out << ", shot " << grouped(uint64_t{h.shot} + 1);
+    out << "\n";
+  }
+  if (!info.resources.empty()) out << counted(info.resources.size(), "file") << "\n";
+  for (const auto& r : info.resources) {
+    out << "  " << printable(r.header.name) << ": " << printable(r.header.media_type) << ", "
+        << byte_size(r.bytes) << "\n";
+  }
+}
+
 void print_text(const std::string& name, const StreamInfo& info, std::ostream& out) {
   out << name << ": reeb format " << info.format_version << ", " << byte_size(info.file_bytes)
       << ", " << plain(bits_per_vertex_and_frame(info)) << " bits per vertex and frame"
@@ -188,6 +239,7 @@ void print_text(const std::string& name, const StreamInfo& info, std::ostream& o
     out << ", " << byte_size(g.bytes) << (g.continues ? ", continues the group before" : "")
         << "\n";
   }
+  print_attributes(info, out);
   for (const auto& s : info.sections) out << "  " << s.name << ": " << byte_size(s.bytes) << "\n";
   EncodingReport told;
   for (const auto& [key, value] : info.metadata) {

@@ -4,11 +4,13 @@
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/frame_selection.h"
+#include "tools/io/file_bytes.h"
 #include "tools/io/output_set.h"
 #include "tools/io/read_sequence.h"
 #include "tools/io/standard_output.h"
 #include "tools/metrics.h"
 #include "tools/picture/contact_sheet.h"
+#include "tools/picture/read_image.h"
 #include "tools/text.h"
 
 namespace reeb::tools {
@@ -26,6 +28,8 @@ struct Options {
   double azimuth = 35;
   double elevation = 12;
   bool z_up = false;
+  std::string attribute;
+  std::string texture;
   bool overwrite = false;
   unsigned threads = 0;
   ConsoleOptions console;
@@ -54,6 +58,41 @@ Status load(const Options& o, const std::vector<std::string>& names, Console& co
   return {};
 }
 
+/// A file, or what the sequence carries under that name.
+Status load_texture(const std::string& name, const Sequence& sequence, Image& out) {
+  const auto carried = std::find_if(sequence.resources.begin(), sequence.resources.end(),
+                                    [&](const Resource& r) { return r.name == name; });
+  FileBytes file;
+  std::string_view bytes;
+  if (carried != sequence.resources.end()) {
+    bytes = {reinterpret_cast<const char*>(carried->bytes.data()), carried->bytes.size()};
+  } else {
+    if (Status status = FileBytes::read(name, file); !status.ok()) return status;
+    bytes = file.view();
+  }
+  const Status status = decode_image(bytes, out);
+  return status.ok() ? status : Status(status.code(), name + ": " + status.message());
+}
+
+/// What covers the mesh.
+Status choose_paint(const Options& o, const Sequence& sequence, Console& console, Image& texture,
+                    SheetOptions& sheet) {
+  if (!o.attribute.empty()) {
+    sheet.attribute = o.attribute;
+    if (Status status = find_scale(sequence, o.attribute, sheet.scale); !status.ok()) return status;
+    if (sheet.scale.used)
+      console.say(o.attribute + ": from " + plain(sheet.scale.low) + " in blue to " +
+                  plain(sheet.scale.high) + " in red");
+  }
+  if (o.texture.empty()) return {};
+  for (const Shot& shot : sequence.shots) {
+    if (texture_coordinates(shot, 0).empty())
+      return Status::invalid("there are no texture coordinates for " + o.texture);
+  }
+  sheet.texture = &texture;
+  return load_texture(o.texture, sequence, texture);
+}
+
 int run(const Options& o) {
   Console console(o.console);
   const auto inputs = split_sequences(o.inputs, 1);
@@ -76,7 +115,9 @@ int run(const Options& o) {
     if (status.ok()) status = compare_sequences(original, other, comparison);
   }
   SheetOptions sheet;
+  Image texture(1, 1);
   if (status.ok()) status = select_frames(o.frames, original.frame_count(), sheet.frames);
+  if (status.ok()) status = choose_paint(o, original, console, texture, sheet);
   if (!status.ok()) return fail(console, status);
 
   sheet.tile_width = o.tile;
@@ -126,6 +167,20 @@ void add_picture_command(CLI::App& app, int& exit_code) {
       ->type_name("A")
       ->group(group);
   command->add_flag("--z-up", o->z_up, "z is upright, not y")->group(group);
+  auto* attribute =
+      command
+          ->add_option("--attribute", o->attribute,
+                       "Coloured by an attribute: colours as they are, whole numbers each in one, "
+                       "others from blue to red")
+          ->type_name("NAME")
+          ->group(group);
+  command
+      ->add_option("--texture", o->texture,
+                   "Covered with a picture (PNG, JPEG, BMP, TGA), a file or one that the .reeb "
+                   "file carries, by its texture coordinates")
+      ->excludes(attribute)
+      ->type_name("FILE")
+      ->group(group);
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });

@@ -44,6 +44,7 @@ class Configuration:
             return [programs[self.peer + "_peer"], "encode", setting, stream, *inputs]
         target = ("--lossless",) if self.unit == "lossless" else ("--" + self.unit, setting)
         return [programs["reeb"], "encode", *inputs, "-o", stream, *target, *self.options, "--no-report",
+                "--attribute", "*=drop",  # peers code positions alone
                 "-T", "1", "--json", "-q"]
 
     def decode_command(self, programs, stream, decoded):

@@ -27,6 +27,29 @@ void check(const Connectivity& c, const MeshFrame& mesh) {
   require(corners == c.corners.size());
   for (const uint32_t v : c.corners) require(v < c.vertex_count);
   for (const float x : mesh.positions) require(std::isfinite(x));
+  for (const Attribute& a : mesh.attributes) {
+    const size_t elements = Shot{c, 1, {}}.element_count(a.domain);
+    require(!a.animated && a.values.size() == elements * a.element_bytes());
+    if (a.type != ValueType::kBinary32) continue;
+    for (size_t i = 0; i < elements * a.channel_count; ++i) require(std::isfinite(a.get<float>(i)));
+  }
+}
+
+size_t channels(const std::vector<Attribute>& attributes) {
+  size_t out = 0;
+  for (const Attribute& a : attributes) out += a.channel_count;
+  return out;
+}
+
+// Names change where they would break a line; and of PLY, neighbours may become one.
+void check_attributes(const MeshFrame& mesh, const MeshFrame& back, MeshFormat format) {
+  require(channels(mesh.attributes) == channels(back.attributes));
+  if (format == MeshFormat::kPly) return;
+  require(mesh.attributes.size() == back.attributes.size());
+  for (size_t i = 0; i < mesh.attributes.size(); ++i) {
+    require(mesh.attributes[i].name == back.attributes[i].name);
+    if (mesh.attributes[i].names.empty()) require(mesh.attributes[i] == back.attributes[i]);
+  }
 }
 
 // Read again as a further frame it is the same, and so is what is written of it.
@@ -34,16 +57,20 @@ void read_as_mesh(std::string_view bytes, MeshFormat format) {
   MeshFrame mesh;
   if (!read_mesh(bytes, format, nullptr, mesh).ok()) return;
   check(mesh.connectivity, mesh);
-  const MeshReference reference{mesh.connectivity, std::string(mesh.face_text)};
+  const MeshReference reference{mesh.connectivity, std::string(mesh.face_text), mesh.obj_faces};
   MeshFrame again;
   require(read_mesh(bytes, format, &reference, again).ok());
   require(again.same_connectivity && again.positions == mesh.positions);
+  require(again.attributes == mesh.attributes);
   if (format == MeshFormat::kStl) return;  // polygons and isolated vertices do not fit into it
-  const std::string written = write_mesh(mesh.connectivity, mesh.positions, format);
+  std::vector<std::string> unkept;
+  const std::string written =
+      write_mesh(mesh.connectivity, mesh.positions, format, mesh.attributes, &unkept);
   MeshFrame back;
   require(read_mesh(written, format, nullptr, back).ok());
   require(back.connectivity == mesh.connectivity && back.positions == mesh.positions);
   require(back.remainders.empty() && back.unkept.empty() && back.notes.empty());
+  if (unkept.empty()) check_attributes(mesh, back, format);
 }
 
 void read_as_cache(std::string_view bytes, CacheFormat format) {

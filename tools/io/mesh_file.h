@@ -9,6 +9,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@
 #include "tools/io/text_number.h"
 
 namespace reeb::tools {
+
+struct ObjFaces;
 
 enum class MeshFormat { kObj, kPly, kOff, kStl };
 
@@ -31,7 +34,9 @@ std::string lower_extension(const std::filesystem::path& path);
 /// An earlier frame. A frame with the same connectivity is read faster and does not keep it again.
 struct MeshReference {
   Connectivity connectivity;
-  std::string face_text;  ///< OBJ: everything from the first face on; empty where vertices follow
+  std::string face_text =
+      {};  ///< OBJ: everything from the first face on; empty where vertices follow
+  std::shared_ptr<const ObjFaces> obj_faces = {};  ///< OBJ: what that text says
 };
 
 /// Something that a file has and a Sequence does not.
@@ -45,9 +50,11 @@ struct Unkept {
 struct MeshFrame {
   bool same_connectivity = false;  ///< as in the reference; then `connectivity` is empty
   Connectivity connectivity;
-  std::vector<float> positions;   ///< [vertex][xyz], finite
-  std::vector<float> remainders;  ///< see Real, [vertex][xyz]; empty where all are 0
-  std::string_view face_text;     ///< part of the bytes read, see MeshReference
+  std::vector<float> positions;       ///< [vertex][xyz], finite
+  std::vector<float> remainders;      ///< see Real, [vertex][xyz]; empty where all are 0
+  std::vector<Attribute> attributes;  ///< of the frame, static; of no elements: none
+  std::string_view face_text;         ///< part of the bytes read, see MeshReference
+  std::shared_ptr<const ObjFaces> obj_faces;
   std::vector<Unkept> unkept;
   std::vector<std::string> notes;  ///< sentences on what is odd but harmless
 
@@ -64,15 +71,20 @@ Status read_mesh(std::string_view bytes, MeshFormat format, const MeshReference*
                  MeshFrame& out);
 
 /// The text or bytes of a file. PLY and STL are binary, little endian; floats in text are the
-/// shortest that read back to the same value. STL gets polygons as fans of triangles.
+/// shortest that read back to the same value. STL gets polygons as fans of triangles. `attributes`:
+/// of the frame, static; those that the format does not take go to `unkept`, if that is wanted.
 std::string write_mesh(const Connectivity& connectivity, std::span<const float> positions,
-                       MeshFormat format);
+                       MeshFormat format, std::span<const Attribute> attributes = {},
+                       std::vector<std::string>* unkept = nullptr);
 
 // The formats one by one; they leave the checks common to all to `read_mesh`.
 Status read_obj(std::string_view bytes, const MeshReference* reference, MeshFrame& out);
 Status read_ply(std::string_view bytes, MeshFrame& out);
 Status read_off(std::string_view bytes, MeshFrame& out);
 Status read_stl(std::string_view bytes, const MeshReference* reference, MeshFrame& out);
+
+std::string write_obj(const Connectivity& connectivity, std::span<const float> positions,
+                      std::span<const Attribute> attributes, std::vector<std::string>* unkept);
 
 inline void MeshFrame::append_coordinate(const Real& x) {
   positions.push_back(x.value);

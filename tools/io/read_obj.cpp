@@ -1,8 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
 
+#include "tools/io/attribute_values.h"
 #include "tools/io/mesh_file.h"
+#include "tools/io/obj_faces.h"
 #include "tools/io/text_cursor.h"
+#include "tools/text.h"
 
 namespace reeb::tools {
 namespace {
@@ -16,15 +21,8 @@ constexpr const char* kFreeForm = "curves and surfaces";
 constexpr const char* kDisplay = "display attributes";
 
 /// All statements of Wavefront's description (Advanced Visualizer manual, appendix B1) and its
-/// predecessor but vertices and faces.
+/// predecessor but those that are kept.
 constexpr std::array kUnkept = {
-    Statement{"vt", "texture coordinates"},
-    Statement{"vn", "normals"},
-    Statement{"usemtl", "materials"},
-    Statement{"mtllib", "material libraries"},
-    Statement{"g", "groups"},
-    Statement{"o", "objects"},
-    Statement{"s", "smoothing groups"},
     Statement{"l", "lines"},
     Statement{"p", "points"},
     Statement{"usemap", "texture maps"},
@@ -77,12 +75,14 @@ class ObjReader {
       status = read_statement();
       if (!out_.same_connectivity) in_.next_line();
     }
+    if (!status.ok()) return status;
     out_.connectivity.vertex_count = vertex_count();
-    if (first_face_ != text_.npos && !vertex_after_face_) {
+    if (first_face_ != text_.npos && !vertex_after_face_ && !entry_after_face_) {
       out_.face_text = text_.substr(first_face_);
     }
     list_unkept();
-    return status;
+    add_attributes();
+    return {};
   }
 
  private:
@@ -91,6 +91,10 @@ class ObjReader {
     const char first = in_.peek();
     if (first == 'v' && is_blank(in_.peek(1))) return read_vertex();
     if (first == 'f' && is_blank(in_.peek(1))) return read_face();
+    if (first == 'v' && is_blank(in_.peek(2))) {
+      if (in_.peek(1) == 't') return read_entry(lists_[0], 1);
+      if (in_.peek(1) == 'n') return read_entry(lists_[1], 3);
+    }
     if (in_.at_line_end()) return {};
     return first == '#' ? skip_comment() : read_other();
   }
@@ -119,29 +123,69 @@ class ObjReader {
   // Behind the coordinates: a weight, or a colour of three or four channels.
   Status read_vertex_extras() {
     int count = 0;
+    std::array<float, 4> extras{1, 1, 1, 1};
     Real x;
     for (; !at_statement_end(); in_.skip_blanks_and_continuations(), ++count) {
       if (!in_.read(x)) return in_.unexpected("a weight or a channel of a colour");
+      if (count < 4) extras[static_cast<size_t>(count)] = x.value;
     }
     if (count == 2 || count > 4) {
       return in_.error("a vertex of " + std::to_string(3 + count) +
                        " numbers: it has 3 coordinates, and may have a weight or a colour; export "
                        "the file again");
     }
-    if (count == 1) weights_ += x.value != 1;
-    if (count > 1) ++colours_;
+    const size_t vertex = vertex_count() - 1;
+    if (count == 1) {
+      weights_.resize(vertex, 1.0f);
+      weights_.push_back(x.value);
+    } else {
+      colours_.resize(4 * vertex, 1.0f);
+      colours_.insert(colours_.end(), extras.begin(), extras.end());
+      colour_channels_ = std::max(colour_channels_, static_cast<uint32_t>(count));
+      ++coloured_;
+    }
+    return skip_comment();
+  }
+
+  // `vt` or `vn`.
+  Status read_entry(ObjList& list, uint32_t least) {
+    in_.advance(2);
+    std::array<float, 3> entry{};
+    uint32_t count = 0;
+    bool finite = true;
+    for (in_.skip_blanks_and_continuations(); !at_statement_end();
+         in_.skip_blanks_and_continuations(), ++count) {
+      Real x;
+      if (!in_.read(x)) {  // what some print for what is no number
+        in_.word();
+        x.value = NAN;
+      }
+      finite = finite && std::isfinite(x.value);
+      if (count < 3) entry[count] = x.value;
+    }
+    if (count < least) return in_.unexpected("a number of a texture coordinate or normal");
+    if (!finite) entry = {};
+    list.not_finite += finite ? 0 : 1;
+    list.beyond += count > 3 ? count - 3 : 0;
+    list.channels = std::max(list.channels, std::min(count, 3u));
+    list.values.insert(list.values.end(), entry.begin(), entry.end());
+    entry_after_face_ = first_face_ != text_.npos;
     return skip_comment();
   }
 
   Status read_face() {
     if (first_face_ == text_.npos) {
       first_face_ = in_.offset();
+      faces_->begin(lists_);
       if (matches_reference()) {
         out_.same_connectivity = true;
         return {};
       }
     }
     in_.word();
+    const size_t face = out_.connectivity.face_sizes.size();
+    for (ObjNames& names : faces_->names) names.take(face);
+    faces_->smoothing.take(face);
     uint32_t size = 0;
     for (in_.skip_blanks_and_continuations(); !at_statement_end();
          in_.skip_blanks_and_continuations()) {
@@ -158,9 +202,10 @@ class ObjReader {
     const TextCursor start = in_;
     int64_t index = 0;
     bool good = in_.read_prefix(index);
-    for (int i = 0; i < 2 && in_.peek() == '/'; ++i) {
+    std::array<int64_t, 2> entries{};  // 0: none
+    for (size_t i = 0; i < 2 && in_.peek() == '/'; ++i) {
       in_.advance(1);
-      in_.skip_integer();
+      if (in_.peek() != '/' && !in_.at_number_end()) good = good && in_.read_prefix(entries[i]);
     }
     good = good && in_.at_number_end();
     if (!good) return start.unexpected("a vertex of a face");
@@ -170,8 +215,18 @@ class ObjReader {
       return start.error("a face uses vertex " + std::to_string(index) +
                          ", which cannot exist; the file is damaged, export it again");
     }
+    for (size_t i = 0; i < 2; ++i) set_entry(i, entries[i]);
     out_.connectivity.corners.push_back(static_cast<uint32_t>(vertex));
     return {};
+  }
+
+  // Of the corner that follows; 0: none.
+  void set_entry(size_t list, int64_t index) {
+    const int64_t entry = index > 0 ? index - 1 : static_cast<int64_t>(lists_[list].size()) + index;
+    const bool possible = index != 0 && entry >= 0 && entry <= INT32_MAX;
+    if (index != 0 && !possible) ++faces_->unreadable[list];
+    faces_->set_entry(list, out_.connectivity.corners.size(),
+                      possible ? static_cast<int32_t>(entry) : ObjList::kNone);
   }
 
   Status read_other() {
@@ -181,6 +236,7 @@ class ObjReader {
       in_ = start;
       return read_face();
     }
+    if (read_name(keyword)) return {};
     size_t i = 0;
     while (i < kUnkept.size() && kUnkept[i].keyword != keyword) ++i;
     if (i == kUnkept.size()) {
@@ -194,6 +250,33 @@ class ObjReader {
     }
     in_.skip_continued_line();
     return {};
+  }
+
+  // A statement that names what the faces after it belong to.
+  bool read_name(std::string_view keyword) {
+    ObjNames* names = nullptr;
+    if (keyword == "usemtl") names = &faces_->names[ObjFaces::kMaterial];
+    if (keyword == "g") names = &faces_->names[ObjFaces::kGroup];
+    if (keyword == "o") names = &faces_->names[ObjFaces::kObject];
+    if (keyword == "s") names = &faces_->smoothing;
+    if (names == nullptr && keyword != "mtllib") return false;
+    const std::string name = rest_of_line();
+    if (names != nullptr)
+      names->set(name);
+    else if (!name.empty())
+      (first_face_ == text_.npos ? libraries_ : faces_->libraries).push_back(name);
+    return true;
+  }
+
+  // Its words as they stand; blanks, and the ends of lines that continue, are one blank each.
+  std::string rest_of_line() {
+    std::string out;
+    for (in_.skip_blanks_and_continuations(); !in_.at_line_end();
+         in_.skip_blanks_and_continuations()) {
+      if (!out.empty()) out += ' ';
+      out += in_.word();
+    }
+    return out;
   }
 
   static bool is_keyword_letter(char c) {
@@ -211,18 +294,56 @@ class ObjReader {
   }
 
   void list_unkept() {
-    count_unkept("colours", colours_);
-    count_unkept("weights", weights_);
     for (size_t i = 0; i < kUnkept.size(); ++i) count_unkept(kUnkept[i].what, counts_[i]);
+  }
+
+  void add_attributes() {
+    add_vertex_attributes();
+    const bool same = out_.same_connectivity;
+    out_.obj_faces = same ? reference_->obj_faces : faces_;
+    add_obj_attributes(lists_, *out_.obj_faces, libraries_,
+                       same ? reference_->connectivity : out_.connectivity, out_);
+  }
+
+  void add_vertex_attributes() {
+    if (coloured_ > 0) {
+      colours_.resize(size_t{4} * vertex_count(), 1.0f);
+      std::vector<float> channels;
+      for (size_t i = 0; i < colours_.size(); ++i) {
+        if (i % 4 < colour_channels_) channels.push_back(colours_[i]);
+      }
+      add_values("color", Semantic::kColour, colour_channels_, channels);
+      if (coloured_ < vertex_count())
+        out_.notes.push_back(grouped(vertex_count() - coloured_) +
+                             " of the vertices have no colour, which is taken as white");
+    }
+    weights_.resize(weights_.empty() ? 0 : vertex_count(), 1.0f);
+    if (std::any_of(weights_.begin(), weights_.end(), [](float w) { return w != 1; }))
+      add_values("w", Semantic::kGeneric, 1, weights_);
+  }
+
+  void add_values(const char* name, Semantic semantic, uint32_t channels,
+                  std::vector<float>& values) {
+    uint64_t bad = 0;
+    for (float& x : values) {
+      if (std::isfinite(x)) continue;
+      x = 0;
+      ++bad;
+    }
+    if (bad > 0)
+      out_.notes.push_back(counted(bad, "number") + " of \"" + name + "\" not finite, taken as 0");
+    out_.attributes.push_back(
+        make_attribute(name, semantic, Domain::kVertex, ValueType::kBinary32, channels, values));
   }
 
   uint32_t vertex_count() const { return static_cast<uint32_t>(out_.positions.size() / 3); }
 
   // Equal text behind an equal number of vertices means equal faces.
   bool matches_reference() const {
-    return reference_ != nullptr && !reference_->face_text.empty() &&
+    return reference_ != nullptr && !reference_->face_text.empty() && reference_->obj_faces &&
            vertex_count() == reference_->connectivity.vertex_count &&
-           text_.substr(first_face_) == reference_->face_text;
+           text_.substr(first_face_) == reference_->face_text &&
+           faces_->begins_like(*reference_->obj_faces);
   }
 
   std::string_view text_;
@@ -231,8 +352,14 @@ class ObjReader {
   MeshFrame& out_;
   size_t first_face_ = std::string_view::npos;
   bool vertex_after_face_ = false;
-  uint64_t colours_ = 0;
-  uint64_t weights_ = 0;
+  bool entry_after_face_ = false;
+  std::vector<float> colours_;  ///< four to a vertex, up to the last one that has them
+  uint32_t colour_channels_ = 0;
+  size_t coloured_ = 0;  ///< vertices
+  std::vector<float> weights_;
+  std::array<ObjList, 2> lists_;        ///< `vt`, `vn`
+  std::vector<std::string> libraries_;  ///< before the first face
+  std::shared_ptr<ObjFaces> faces_ = std::make_shared<ObjFaces>();
   std::array<uint64_t, kUnkept.size()> counts_{};  ///< statements of each kind
 };
 

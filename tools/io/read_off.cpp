@@ -1,5 +1,8 @@
+#include <cmath>
 #include <string>
+#include <vector>
 
+#include "tools/io/attribute_values.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/text_cursor.h"
 #include "tools/text.h"
@@ -30,7 +33,7 @@ class OffReader {
                        " that the file announces; it is damaged, export it again");
     }
     out_.connectivity.vertex_count = static_cast<uint32_t>(vertex_count_);
-    list_unkept();
+    add_attributes();
     return {};
   }
 
@@ -110,12 +113,14 @@ class OffReader {
       if (!in_.read(x)) return in_.unexpected("one of the three coordinates of a vertex");
       out_.append_coordinate(x);
     }
-    if (by_lines_) return skip_numbers(vertex_extras_);
-    const int announced = 2 * texture_coordinates_ + 4 * colours_ + 3 * normals_;
-    for (int i = 0; i < announced; ++i) {
+    if (by_lines_) return read_numbers(vertex_extras_);
+    const size_t announced = 2u * texture_coordinates_ + 4u * colours_ + 3u * normals_;
+    for (size_t i = 0; i < announced; ++i) {
       skip_to_content();
       if (!in_.read(x)) return in_.unexpected("a number of a vertex");
+      vertex_extras_.numbers.push_back(x.value);
     }
+    vertex_extras_.end_row(announced);
     return {};
   }
 
@@ -131,28 +136,94 @@ class OffReader {
       out_.connectivity.corners.push_back(vertex);
     }
     out_.connectivity.face_sizes.push_back(static_cast<uint32_t>(size));
-    return skip_numbers(face_extras_);
+    return read_numbers(face_extras_);
   }
 
-  // Up to the end of the line; `rows` counts those with numbers.
-  Status skip_numbers(uint64_t& rows) {
-    rows += !at_row_end();
-    for (Real x; !at_row_end();) {
-      if (!in_.read(x)) return in_.unexpected("a number");
+  /// Numbers behind those of vertices or faces.
+  struct Extras {
+    std::vector<float> numbers;
+    uint64_t rows = 0;  ///< that have any
+    size_t in_row = 0;  ///< numbers of each row, if all have equally many
+    bool even = true;
+    uint64_t ended = 0;
+
+    void end_row(size_t count) {
+      if (ended++ == 0) in_row = count;
+      even = even && count == in_row;
+      rows += count > 0 ? 1 : 0;
     }
+  };
+
+  // Up to the end of the line.
+  Status read_numbers(Extras& extras) {
+    size_t count = 0;
+    for (Real x; !at_row_end(); ++count) {
+      if (!in_.read(x)) return in_.unexpected("a number");
+      extras.numbers.push_back(x.value);
+    }
+    extras.end_row(count);
     return {};
   }
 
-  void list_unkept() {
-    const bool unannounced = !texture_coordinates_ && !colours_ && !normals_;
-    const auto list = [&](bool there, const char* what, uint64_t count) {
-      if (there && count > 0) out_.unkept.push_back({what, count});
-    };
-    list(texture_coordinates_, "texture coordinates", vertex_count_);
-    list(colours_, "colours", vertex_count_);
-    list(normals_, "normals", vertex_count_);
-    list(unannounced, "numbers behind the coordinates", vertex_extras_);
-    list(true, "colours of faces", face_extras_);
+  // Channels first .. first + count - 1 of the numbers of each row.
+  void add(const char* name, Semantic semantic, Domain domain, const Extras& extras, size_t first,
+           size_t count) {
+    std::vector<float> values;
+    uint64_t bad = 0;
+    for (size_t row = 0; row < extras.ended; ++row) {
+      for (size_t i = 0; i < count; ++i) {
+        const float x = extras.numbers[row * extras.in_row + first + i];
+        bad += std::isfinite(x) ? 0 : 1;
+        values.push_back(std::isfinite(x) ? x : 0);
+      }
+    }
+    if (bad > 0)
+      out_.notes.push_back(counted(bad, "number") + " of \"" + name + "\" not finite, taken as 0");
+    const auto channels = static_cast<uint32_t>(count);
+    if (semantic != Semantic::kColour || !are_bytes(values)) {
+      out_.attributes.push_back(
+          make_attribute(name, semantic, domain, ValueType::kBinary32, channels, values));
+      return;
+    }
+    const std::vector<uint8_t> bytes(values.begin(), values.end());
+    out_.attributes.push_back(
+        make_attribute(name, semantic, domain, ValueType::kU8Normalised, channels, bytes));
+  }
+
+  // Colours are whole numbers up to 255, or fractions.
+  static bool are_bytes(const std::vector<float>& values) {
+    bool above_one = false;
+    for (const float x : values) {
+      if (!(x >= 0 && x <= 255) || x != std::trunc(x)) return false;
+      above_one = above_one || x > 1;
+    }
+    return above_one;
+  }
+
+  void unkept(const char* what, const Extras& extras) {
+    if (extras.rows > 0) out_.unkept.push_back({what, extras.rows});
+  }
+
+  // In the order of Geomview: normal, colour, texture coordinate.
+  void add_attributes() {
+    const size_t others = 3u * normals_ + 2u * texture_coordinates_;
+    const size_t n = vertex_extras_.in_row;
+    const size_t colours = n >= others ? n - others : 0;
+    const bool fits = colours_ ? colours == 3 || colours == 4 : n == others;
+    if (n == 0 || !vertex_extras_.even || !fits) {
+      unkept("numbers behind the coordinates", vertex_extras_);
+    } else {
+      if (normals_) add("normal", Semantic::kNormal, Domain::kVertex, vertex_extras_, 0, 3);
+      if (colours_)
+        add("color", Semantic::kColour, Domain::kVertex, vertex_extras_, 3u * normals_, colours);
+      if (texture_coordinates_)
+        add("st", Semantic::kTextureCoordinate, Domain::kVertex, vertex_extras_, n - 2, 2);
+    }
+    const size_t m = face_extras_.in_row;
+    if (face_extras_.even && (m == 3 || m == 4))
+      add("face color", Semantic::kColour, Domain::kFace, face_extras_, 0, m);
+    else
+      unkept("numbers behind the vertices of faces", face_extras_);
   }
 
   TextCursor in_;
@@ -163,8 +234,8 @@ class OffReader {
   bool by_lines_ = false;  ///< a line for each vertex and each face
   uint64_t vertex_count_ = 0;
   uint64_t face_count_ = 0;
-  uint64_t vertex_extras_ = 0;  ///< vertices with numbers behind the coordinates
-  uint64_t face_extras_ = 0;    ///< faces with numbers behind their vertices
+  Extras vertex_extras_;  ///< behind the coordinates
+  Extras face_extras_;    ///< behind the vertices of faces
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "tools/io/mesh_file.h"
+#include "tools/io/ply_attributes.h"
 #include "tools/io/ply_header.h"
 #include "tools/io/ply_values.h"
 #include "tools/text.h"
@@ -59,9 +60,10 @@ class PlyReader {
     }
     out_.positions.reserve(element.count * 3);
     std::array<Real, 3> xyz;
+    PlyAttributes attributes(element, Domain::kVertex, kMaxAttributes / 2);
     const auto take = [&](int i, const PlyProperty& property) {
       const auto axis = std::find(axes.begin(), axes.end(), i) - axes.begin();
-      if (axis == 3) return false;
+      if (axis == 3) return attributes.take(i, property, in_);
       xyz[static_cast<size_t>(axis)] = in_.real(property.type);
       return true;
     };
@@ -70,7 +72,9 @@ class PlyReader {
       return Status();
     };
     out_.connectivity.vertex_count = static_cast<uint32_t>(element.count);
-    return read_rows(element, take, end_row);
+    Status status = read_rows(element, take, end_row);
+    if (status.ok()) attributes.finish(out_);
+    return status;
   }
 
   Status read_faces(const PlyElement& element) {
@@ -80,16 +84,20 @@ class PlyReader {
     }
     auto& sizes = out_.connectivity.face_sizes;
     bool good = true;
+    PlyAttributes attributes(element, Domain::kFace, kMaxAttributes / 2);
     const auto take = [&](int i, const PlyProperty& property) {
-      if (i == list) good = read_corners(property);
-      return i == list;
+      if (i != list) return attributes.take(i, property, in_);
+      good = read_corners(property);
+      return true;
     };
     const auto end_row = [&](uint64_t row) {
       if (!good) return row_failure(element, row);
       if (sizes.back() > 0) return Status();
       return Status::corrupt("face " + grouped(row + 1) + " has no vertices; leave it out");
     };
-    return read_rows(element, take, end_row);
+    Status status = read_rows(element, take, end_row);
+    if (status.ok()) attributes.finish(out_);
+    return status;
   }
 
   bool read_corners(const PlyProperty& property) {
@@ -137,33 +145,17 @@ class PlyReader {
   MeshFrame& out_;
 };
 
-bool is_kept(const PlyProperty& property) {
-  const auto& name = property.name;
-  return name == "x" || name == "y" || name == "z" || name == "vertex_indices" ||
-         name == "vertex_index";
-}
-
-// Properties of vertices and faces by their names, other elements by theirs.
+// Elements but for vertices and faces, whose properties are told when they are read.
 std::vector<Unkept> unkept(const PlyHeader& header) {
   std::vector<Unkept> out;
   if (header.textures > 0) out.push_back({"textures", header.textures});
-  Unkept others{"further properties", 0};
-  const auto add = [&](const std::string& name, uint64_t count) {
-    if (count == 0) return;
-    if (out.size() < kMaxNamed) {
-      out.push_back({name, count});
-    } else {
-      others.count += count;
-    }
-  };
+  Unkept others{"further elements", 0};
   for (const PlyElement& element : header.elements) {
-    if (element.name != "vertex" && element.name != "face") {
-      add(element.name, element.count);
-      continue;
-    }
-    for (const PlyProperty& property : element.properties) {
-      if (!is_kept(property)) add(property.name, element.count);
-    }
+    if (element.name == "vertex" || element.name == "face" || element.count == 0) continue;
+    if (out.size() < kMaxNamed)
+      out.push_back({element.name, element.count});
+    else
+      others.count += element.count;
   }
   if (others.count > 0) out.push_back(others);
   return out;

@@ -7,7 +7,10 @@
 
 #include "tools/io/file_bytes.h"
 #include "tools/io/frame_list.h"
+#include "tools/io/gather_attributes.h"
+#include "tools/io/material_files.h"
 #include "tools/io/mesh_file.h"
+#include "tools/io/obj_faces.h"
 #include "tools/io/point_cache.h"
 #include "tools/metrics.h"
 #include "tools/parallel.h"
@@ -25,13 +28,19 @@ struct Slot {
   MeshFrame mesh;
 };
 
-void read_frame(const fs::path& path, const MeshReference* reference, Slot& slot) {
+void read_frame(const fs::path& path, const MeshReference* reference, bool list_order, Slot& slot) {
   slot.status = FileBytes::read(path, slot.bytes);
   if (!slot.status.ok()) return;
   slot.status = read_mesh(slot.bytes.view(), *mesh_format(path), reference, slot.mesh);
   if (!slot.status.ok()) {
     slot.status = Status(slot.status.code(), path.string() + ": " + slot.status.message());
+    return;
   }
+  MeshFrame& mesh = slot.mesh;
+  if (list_order && mesh.obj_faces)
+    add_list_order(*mesh.obj_faces,
+                   mesh.same_connectivity ? reference->connectivity : mesh.connectivity,
+                   mesh.attributes);
 }
 
 /// What is to be said of frames, told once where they have it alike.
@@ -46,7 +55,7 @@ class FrameNotes {
       names += (names.empty() ? "" : ", ") + u.name + " (" + grouped(u.count) + ")";
     }
     if (!names.empty()) {
-      notes_.push_back(name + ": only positions and faces are kept, not: " + names);
+      notes_.push_back(name + ": not kept: " + names);
     }
     if (mesh.notes.empty() || ++odd_files_ > 1) return;
     for (const std::string& note : mesh.notes) notes_.push_back(name + ": " + note);
@@ -129,6 +138,9 @@ class FrameReader {
     if (!status.ok()) return status;
     notes_.finish();
     remainders_.finish(out_);
+    if (options_.list_order) {
+      for (Shot& shot : out_.shots) drop_plain_orders(shot);
+    }
     return {};
   }
 
@@ -136,8 +148,9 @@ class FrameReader {
   Status read_batch(size_t first, size_t count) {
     std::vector<Slot> slots(count);
     const std::shared_ptr<const MeshReference> compared = reference_;
-    parallel_for(count, options_.threads,
-                 [&](size_t i) { read_frame(files_[first + i], compared.get(), slots[i]); });
+    parallel_for(count, options_.threads, [&](size_t i) {
+      read_frame(files_[first + i], compared.get(), options_.list_order, slots[i]);
+    });
     for (size_t i = 0; i < count; ++i) {
       if (!slots[i].status.ok()) return frame_failure(slots[i].status, first + i);
       append(slots[i].mesh, compared.get(), first + i);
@@ -157,26 +170,35 @@ class FrameReader {
   // `compared` is the reference at the time of reading; an earlier frame of the batch may have
   // replaced it.
   void append(MeshFrame& mesh, const MeshReference* compared, size_t frame) {
-    if (!mesh.same_connectivity || compared != reference_.get()) {
-      if (mesh.same_connectivity) mesh.connectivity = compared->connectivity;
-      if (!reference_ || mesh.connectivity != reference_->connectivity) start_shot(mesh, frame);
-    }
+    const std::string what = difference(mesh, compared);
+    if (!reference_ || !what.empty()) start_shot(mesh, compared, what, frame);
     Shot& shot = out_.shots.back();
     notes_.add(mesh, files_[frame].string());
     remainders_.add(mesh, out_, files_[frame].string());
     if (frame == 0) shot.positions.reserve(files_.size() * mesh.positions.size());
     shot.positions.insert(shot.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    append_attributes(std::move(mesh.attributes), shot.frame_count, shot.attributes);
     ++shot.frame_count;
   }
 
-  void start_shot(MeshFrame& mesh, size_t frame) {
-    const std::string name = files_[frame].string();
-    if (reference_) {
-      report_.notes.push_back(name + ": " + difference(mesh.connectivity) +
-                              "; a new reference starts here");
+  // What keeps a frame from being one of the last shot; empty: nothing, or there is none.
+  std::string difference(MeshFrame& mesh, const MeshReference* compared) const {
+    if (!reference_) return {};
+    if (!mesh.same_connectivity || compared != reference_.get()) {
+      if (mesh.same_connectivity) mesh.connectivity = compared->connectivity;
+      mesh.same_connectivity = false;
+      if (mesh.connectivity != reference_->connectivity) return difference(mesh.connectivity);
     }
+    return attribute_difference(out_.shots.back().attributes, mesh.attributes);
+  }
+
+  void start_shot(MeshFrame& mesh, const MeshReference* compared, const std::string& what,
+                  size_t frame) {
+    const std::string name = files_[frame].string();
+    if (reference_) report_.notes.push_back(name + ": " + what + "; a new reference starts here");
+    if (mesh.same_connectivity) mesh.connectivity = compared->connectivity;
     reference_ = std::make_shared<MeshReference>(
-        MeshReference{mesh.connectivity, std::string(mesh.face_text)});
+        MeshReference{mesh.connectivity, std::string(mesh.face_text), mesh.obj_faces});
     first_of_shot_ = frame;
     out_.shots.emplace_back().connectivity = std::move(mesh.connectivity);
   }
@@ -206,7 +228,7 @@ class FrameReader {
 Status read_cached(const InputFiles& input, const ReadOptions& options, Sequence& out,
                    ReadReport& report) {
   Slot slot;
-  read_frame(input.meshes[0], nullptr, slot);
+  read_frame(input.meshes[0], nullptr, options.list_order, slot);
   if (!slot.status.ok()) return slot.status;
   PointCache cache;
   if (Status status = read_point_cache(input.cache, cache, options.progress); !status.ok())
@@ -221,6 +243,8 @@ Status read_cached(const InputFiles& input, const ReadOptions& options, Sequence
   shot.connectivity = std::move(slot.mesh.connectivity);
   shot.frame_count = cache.frame_count;
   shot.positions = std::move(cache.positions);
+  shot.attributes = std::move(slot.mesh.attributes);
+  if (options.list_order) drop_plain_orders(shot);
   out.frame_rate = cache.frame_rate;
   out.start_time = cache.start_time;
   if (cache.frames_per_sample != 1) {
@@ -262,8 +286,12 @@ Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& 
   if (Status status = find_input(inputs, options.allow_gaps, input); !status.ok()) return status;
   report.notes = std::move(input.notes);
   if (!input.stream.empty()) return read_stream(input.stream, options, out, report);
-  if (!input.cache.empty()) return read_cached(input, options, out, report);
-  return FrameReader(input.meshes, options, out, report).run();
+  Status status = input.cache.empty() ? FrameReader(input.meshes, options, out, report).run()
+                                      : read_cached(input, options, out, report);
+  if (!status.ok() || !options.embed) return status;
+  for (const Shot& shot : out.shots)
+    add_material_files(input.meshes[0].parent_path(), shot, out.resources, report.notes);
+  return {};
 }
 
 }  // namespace reeb::tools

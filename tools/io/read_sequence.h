@@ -16,6 +16,8 @@ namespace reeb::tools {
 struct ReadOptions {
   unsigned threads = 0;     ///< 0 = all cores
   bool allow_gaps = false;  ///< a missing frame number is not an error
+  bool list_order = false;  ///< OBJ: the order of its lists is kept, as `vt.index` and `vn.index`
+  bool embed = false;       ///< OBJ: material texts and textures become resources
   /// Called with the done part in [0,1]. May be empty.
   std::function<void(double)> progress = {};
 };

@@ -1,10 +1,15 @@
 #include "tools/io/write_sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <utility>
 
+#include "tools/io/attribute_values.h"
 #include "tools/io/frame_list.h"
+#include "tools/io/gather_attributes.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/output_set.h"
 #include "tools/io/point_cache.h"
@@ -19,36 +24,61 @@ namespace fs = std::filesystem;
 
 struct PendingFrame {
   fs::path target;
-  const Connectivity* connectivity = nullptr;
-  std::vector<float> positions;
+  SourceFrame frame;
+  std::vector<std::string> unkept;
   Status status;
+};
+
+/// What is not written, told once.
+class Unwritten {
+ public:
+  Unwritten(std::string output, std::vector<std::string>* notes)
+      : output_(std::move(output)), notes_(notes) {}
+
+  void add(const std::vector<std::string>& names) { names_.insert(names.begin(), names.end()); }
+  void finish(const std::string& why) {
+    if (names_.empty() || notes_ == nullptr) return;
+    std::string list;
+    for (const std::string& name : names_) list += (list.empty() ? "" : ", ") + name;
+    notes_->push_back(output_ + ": " + why + ": " + list);
+  }
+
+ private:
+  const std::string output_;
+  std::vector<std::string>* notes_;
+  std::set<std::string> names_;
 };
 
 /// One mesh file per frame: formatted on several threads, a batch at a time.
 Status write_frames(const FrameSource& source, const std::vector<fs::path>& targets,
-                    MeshFormat format, const WriteOptions& options, OutputSet& files) {
+                    MeshFormat format, const std::string& output, const WriteOptions& options,
+                    OutputSet& files) {
+  Unwritten unwritten(output, options.notes);
   const size_t batch = size_t{4} * thread_count(options.threads);
   for (size_t first = 0; first < targets.size(); first += batch) {
     std::vector<PendingFrame> pending(std::min(batch, targets.size() - first));
     for (size_t i = 0; i < pending.size(); ++i) {
       PendingFrame& p = pending[i];
       p.target = targets[first + i];
-      const Status status =
-          source.frame(static_cast<uint32_t>(first + i), p.connectivity, p.positions);
+      const Status status = source.frame(static_cast<uint32_t>(first + i), p.frame);
       if (!status.ok()) return status;
     }
     parallel_for(pending.size(), options.threads, [&](size_t i) {
       PendingFrame& p = pending[i];
-      p.status = files.write(p.target, write_mesh(*p.connectivity, p.positions, format));
+      const SourceFrame& f = p.frame;
+      p.status = files.write(
+          p.target, write_mesh(*f.connectivity, f.positions, format, f.attributes, &p.unkept));
     });
     for (const PendingFrame& p : pending) {
       if (!p.status.ok()) return p.status;
+      unwritten.add(p.unkept);
     }
     if (options.progress) {
       options.progress(static_cast<double>(first + pending.size()) /
                        static_cast<double>(targets.size()));
     }
   }
+  unwritten.finish("not written, for which the format has no place");
   return {};
 }
 
@@ -62,33 +92,98 @@ Status check_same_mesh(const Connectivity& first, const Connectivity& now, uint3
                          "; write one file per frame (e.g. frame_%04d.obj) or pick --frames");
 }
 
-/// `mesh`: where the faces go; empty for nowhere.
+/// Names of the attributes that have other values now.
+std::vector<std::string> changed(const SourceFrame& first, const SourceFrame& now) {
+  std::vector<std::string> out;
+  for (size_t i = 0; i < now.attributes.size() && i < first.attributes.size(); ++i) {
+    if (now.attributes[i].values != first.attributes[i].values)
+      out.push_back(now.attributes[i].name);
+  }
+  return out;
+}
+
+/// `mesh`: where the faces and attributes go; empty for nowhere.
 Status write_cache(const FrameSource& source, const fs::path& cache, CacheFormat format,
                    const fs::path& mesh, const WriteOptions& options, OutputSet& files) {
   const auto count = static_cast<uint32_t>(source.numbers.size());
-  const Connectivity* first = nullptr;
-  const Connectivity* now = nullptr;
-  std::vector<float> positions;
+  Unwritten unwritten(cache.string(), options.notes);
+  Unwritten changing(cache.string(), options.notes);
+  SourceFrame first;
+  SourceFrame now;
   for (uint32_t i = 0; i < count; ++i) {
-    Status status = source.frame(i, now, positions);
+    Status status = source.frame(i, now);
     if (!status.ok()) return status;
     if (i == 0) {
       first = now;
-      if (!mesh.empty())
-        status = files.write(mesh, write_mesh(*first, positions, MeshFormat::kObj));
+      std::vector<std::string> unkept;
+      if (mesh.empty())
+        list_unwritten(first.attributes, {}, &unkept);
+      else
+        status = files.write(mesh, write_mesh(*first.connectivity, first.positions,
+                                              MeshFormat::kObj, first.attributes, &unkept));
+      unwritten.add(unkept);
       if (!status.ok()) return status;
-      status =
-          files.write(cache, cache_header(format, first->vertex_count, count, source.frame_rate,
-                                          source.start_time, source.frames_per_sample));
+      status = files.write(
+          cache, cache_header(format, first.connectivity->vertex_count, count, source.frame_rate,
+                              source.start_time, source.frames_per_sample));
     } else {
-      status = check_same_mesh(*first, *now, source.numbers[i], cache);
+      status = check_same_mesh(*first.connectivity, *now.connectivity, source.numbers[i], cache);
+      if (!mesh.empty()) changing.add(changed(first, now));
     }
-    if (status.ok()) status = files.write(cache, cache_positions(format, positions));
+    if (status.ok()) status = files.write(cache, cache_positions(format, now.positions));
     if (!status.ok()) return status;
     if (options.progress) options.progress(static_cast<double>(i + 1) / count);
   }
+  unwritten.finish("not written, for which it has no place");
+  changing.finish("changes over time, " + mesh.string() + " has it as in the first frame");
   return {};
 }
+
+/// What may come out of a stream into a folder: material texts and images, under plain names.
+bool is_writable(const Resource& resource) {
+  constexpr std::array kExtensions{".mtl",  ".png", ".jpg", ".jpeg", ".tga", ".bmp",  ".tif",
+                                   ".tiff", ".gif", ".dds", ".hdr",  ".exr", ".webp", ".ktx2"};
+  const fs::path name(resource.name);
+  const std::string extension = lower_extension(name);
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
+    return false;
+  if (name.is_absolute() || resource.name.find_first_of("\\:") != std::string::npos) return false;
+  return std::none_of(name.begin(), name.end(), [](const fs::path& part) {
+    return part.empty() || part.string().starts_with('.');
+  });
+}
+
+/// Files that meshes name, and where they go.
+class ResourceFiles {
+ public:
+  /// `mesh`: beside it; empty for nowhere.
+  ResourceFiles(const FrameSource& source, const fs::path& mesh, const std::string& output,
+                const WriteOptions& options) {
+    Unwritten unwritten(output, options.notes);
+    for (const Resource& r : source.resources) {
+      if (!mesh.empty() && is_writable(r))
+        files_.emplace_back(mesh.parent_path() / r.name, &r);
+      else
+        unwritten.add({r.name});
+    }
+    unwritten.finish("files that are not written");
+  }
+
+  void announce(std::vector<fs::path>& targets) const {
+    for (const auto& [target, resource] : files_) targets.push_back(target);
+  }
+  Status write(OutputSet& files) const {
+    for (const auto& [target, resource] : files_) {
+      const auto* bytes = reinterpret_cast<const char*>(resource->bytes.data());
+      const Status status = files.write(target, {bytes, resource->bytes.size()});
+      if (!status.ok()) return status;
+    }
+    return {};
+  }
+
+ private:
+  std::vector<std::pair<fs::path, const Resource*>> files_;
+};
 
 Status unknown_format(const std::string& output) {
   return Status::invalid(output +
@@ -121,13 +216,14 @@ FrameSource source_of(const Sequence& sequence) {
     source.frames_per_sample = std::strtod(rate->second.c_str(), nullptr);
   }
   for (uint32_t i = 0; i < sequence.frame_count(); ++i) source.numbers.push_back(i + 1);
-  source.frame = [&sequence](uint32_t i, const Connectivity*& connectivity,
-                             std::vector<float>& positions) {
+  source.resources = sequence.resources;
+  source.frame = [&sequence](uint32_t i, SourceFrame& out) {
     for (const Shot& shot : sequence.shots) {
       if (i < shot.frame_count) {
-        connectivity = &shot.connectivity;
+        out.connectivity = &shot.connectivity;
         const auto frame = shot.frame(i);
-        positions.assign(frame.begin(), frame.end());
+        out.positions.assign(frame.begin(), frame.end());
+        out.attributes = attributes_of_frame(shot.attributes, shot.frame_count, i);
         return Status();
       }
       i -= shot.frame_count;
@@ -201,13 +297,21 @@ Status write_sequence(const FrameSource& source, const std::string& output,
 
   OutputSet files(options.overwrite);
   Status status = check_room(targets[0], source.least_bytes);
-  if (status.ok()) status = files.prepare(targets);
+  const fs::path mesh = name.faces_beside ? targets[1]
+                        : !cache && name.extension == ".obj" && !is_standard_output(output)
+                            ? targets[0]
+                            : fs::path();
+  const ResourceFiles resources(source, mesh, output, options);
+  std::vector<fs::path> all = targets;
+  resources.announce(all);
+  if (status.ok()) status = files.prepare(all);
+  if (status.ok()) status = resources.write(files);
   if (!status.ok()) return status;
   if (cache) {
-    const fs::path mesh = name.faces_beside ? targets[1] : fs::path();
     status = write_cache(source, targets[0], *cache, mesh, options, files);
   } else {
-    status = write_frames(source, targets, *mesh_format("x" + name.extension), options, files);
+    status =
+        write_frames(source, targets, *mesh_format("x" + name.extension), output, options, files);
   }
   return status.ok() ? files.commit() : status;
 }

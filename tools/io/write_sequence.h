@@ -10,6 +10,13 @@
 
 namespace reeb::tools {
 
+/// A frame to write.
+struct SourceFrame {
+  const Connectivity* connectivity = nullptr;  ///< valid until all is written
+  std::vector<float> positions;                ///< [vertex][xyz]
+  std::vector<Attribute> attributes;           ///< with the values of the frame alone
+};
+
 /// Frames to write, asked for one after another.
 struct FrameSource {
   std::vector<uint32_t> numbers;  ///< the number of each frame in its file name, in order of output
@@ -17,11 +24,9 @@ struct FrameSource {
   double start_time = 0;          ///< of the first frame written, in frames
   double frames_per_sample = 1;   ///< see PointCache
   uint64_t least_bytes = 0;       ///< that the output will take, likely
-  /// Gives the faces and positions ([vertex][xyz]) of output frame i; the pointer stays valid until
-  /// all is written.
-  std::function<Status(uint32_t i, const Connectivity*& connectivity,
-                       std::vector<float>& positions)>
-      frame;
+  std::vector<Resource> resources = {};  ///< files that go beside meshes that name them
+  /// Gives output frame i.
+  std::function<Status(uint32_t i, SourceFrame& out)> frame;
 };
 
 /// All frames of `sequence`, numbered from 1. The sequence must outlive the source.
@@ -33,6 +38,7 @@ struct WriteOptions {
   unsigned threads = 0;  ///< 0 = all cores
   /// Called with the done part in [0,1]. May be empty.
   std::function<void(double)> progress = {};
+  std::vector<std::string>* notes = nullptr;  ///< gets what the format does not take
 };
 
 /// What an output name stands for.

@@ -20,11 +20,13 @@ constexpr Colour kClay{214, 196, 178};
 struct FrameView {
   const Connectivity* connectivity = nullptr;
   std::span<const float> positions;
+  const Shot* shot = nullptr;
+  uint32_t t = 0;  ///< in the shot
 };
 
 FrameView frame_view(const Sequence& sequence, uint32_t frame) {
   for (const Shot& shot : sequence.shots) {
-    if (frame < shot.frame_count) return {&shot.connectivity, shot.frame(frame)};
+    if (frame < shot.frame_count) return {&shot.connectivity, shot.frame(frame), &shot, frame};
     frame -= shot.frame_count;
   }
   return {};
@@ -95,25 +97,39 @@ class Sheet {
     const int left = static_cast<int>(column) * options_.tile_width;
     text("frame " + grouped(uint64_t{frame} + 1), left, 0);
     if (other_ == nullptr) {
-      draw_tile(a, {&kClay, 1}, a, left, kLineHeight);
+      draw_tile(a, a, left, kLineHeight);
       return;
     }
     const FrameView b = frame_view(*other_, frame);
-    draw_tile(a, {&kClay, 1}, a, left, row_top(0));
-    draw_tile(b, {&kClay, 1}, a, left, row_top(1));
+    draw_tile(a, a, left, row_top(0));
+    draw_tile(b, a, left, row_top(1));
+    const std::vector<double> errors = displacements(a, b);
     std::vector<Colour> colours;
-    for (const double d : displacements(a, b)) {
-      colours.push_back(error_colour(largest_error_ > 0 ? d / largest_error_ : 0));
+    for (const uint32_t v : b.connectivity->corners)
+      colours.push_back(error_colour(largest_error_ > 0 ? errors[v] / largest_error_ : 0));
+    draw_tile(b, {.corners = colours}, a, left, row_top(2));
+  }
+
+  // As the options say.
+  void draw_tile(const FrameView& frame, const FrameView& centred, int left, int top) {
+    const std::vector<Colour> colours =
+        paint_corners(*frame.shot, frame.t, options_.attribute, options_.scale);
+    const std::vector<float> places = texture_coordinates(*frame.shot, frame.t);
+    Paint paint{.corners = {&kClay, 1}};
+    if (!colours.empty()) paint.corners = colours;
+    if (options_.texture != nullptr && !places.empty()) {
+      paint.texture = options_.texture;
+      paint.texture_coordinates = places;
     }
-    draw_tile(b, colours, a, left, row_top(2));
+    draw_tile(frame, paint, centred, left, top);
   }
 
   // `centred` gives the middle, so that both sides of a comparison stand alike.
-  void draw_tile(const FrameView& frame, std::span<const Colour> colours, const FrameView& centred,
-                 int left, int top) {
+  void draw_tile(const FrameView& frame, const Paint& paint, const FrameView& centred, int left,
+                 int top) {
     Image tile(options_.tile_width * kSupersampling, options_.tile_height * kSupersampling, kPaper);
-    draw_mesh(*frame.connectivity, frame.positions, colours, options_.camera,
-              {box_centre(centred.positions), scale_ * kSupersampling}, tile);
+    draw_painted(*frame.connectivity, frame.positions, paint, options_.camera,
+                 {box_centre(centred.positions), scale_ * kSupersampling}, tile);
     paste_shrunk(tile, kSupersampling, left, top, image_);
   }
 

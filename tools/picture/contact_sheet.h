@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/common/base/sequence.h"
+#include "tools/picture/attribute_paint.h"
 #include "tools/picture/image.h"
 #include "tools/picture/render.h"
 
@@ -16,6 +17,9 @@ struct SheetOptions {
   int tile_width = 360;          ///< pixels of one frame
   int tile_height = 300;
   Camera camera = Camera::orbit(35, 12, false);
+  std::string attribute = {};      ///< that gives the colours, where a shot has it
+  ColourScale scale = {};          ///< of the attribute
+  const Image* texture = nullptr;  ///< where a shot has texture coordinates, instead
 };
 
 /// `columns` frames, or all where there are fewer, from the first to the last.

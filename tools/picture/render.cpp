@@ -82,6 +82,7 @@ struct Corner {
   Vec3 at;      ///< pixels right and down, units of the mesh towards the eye
   Vec3 normal;  ///< in the axes of the camera
   Vec3 colour;
+  Vec3 place;  ///< in the texture
 };
 
 Vec3 blend(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<double, 3>& w) {
@@ -90,8 +91,11 @@ Vec3 blend(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<double,
 
 class Rasterizer {
  public:
-  explicit Rasterizer(Image& out)
-      : out_(out), depth_(out.pixels.size(), -std::numeric_limits<double>::infinity()) {}
+  /// `texture` may be null.
+  Rasterizer(const Image* texture, Image& out)
+      : texture_(texture),
+        out_(out),
+        depth_(out.pixels.size(), -std::numeric_limits<double>::infinity()) {}
 
   void draw(const Corner& a, const Corner& b, const Corner& c) {
     const double area = edge(a.at, b.at, c.at);
@@ -143,12 +147,33 @@ class Rasterizer {
     double& nearest = depth_[static_cast<size_t>(y) * out_.width + x];
     if (z <= nearest) return;
     nearest = z;
-    const Vec3 colour = blend(a.colour, b.colour, c.colour, w);
+    const Vec3 colour = texture_ != nullptr ? texel(blend(a.place, b.place, c.place, w))
+                                            : blend(a.colour, b.colour, c.colour, w);
     const double light = shade(normalized(blend(a.normal, b.normal, c.normal, w)));
     const auto channel = [&](double value) {
       return static_cast<uint8_t>(std::clamp(value * light, 0.0, 255.0));
     };
     out_.at(x, y) = {channel(colour.x), channel(colour.y), channel(colour.z)};
+  }
+
+  // Between the four nearest pixels.
+  Vec3 texel(const Vec3& place) const {
+    const auto split = [](double part, int size, int& low, int& high) {
+      const double x = (part - std::floor(part)) * size - 0.5;
+      const double below = std::floor(x);
+      low = (static_cast<int>(below) + size) % size;
+      high = (low + 1) % size;
+      return x - below;
+    };
+    int left = 0, right = 0, top = 0, bottom = 0;
+    const double x = split(place.x, texture_->width, left, right);
+    const double y = split(1 - place.y, texture_->height, top, bottom);
+    const auto at = [&](int column, int row) {
+      const Colour& c = texture_->at(column, row);
+      return Vec3{1.0 * c[0], 1.0 * c[1], 1.0 * c[2]};
+    };
+    return (at(left, top) * (1 - x) + at(right, top) * x) * (1 - y) +
+           (at(left, bottom) * (1 - x) + at(right, bottom) * x) * y;
   }
 
   // A key light from the upper left, a weak one from the eye, some light from everywhere.
@@ -159,6 +184,7 @@ class Rasterizer {
     return 0.32 + 0.58 * lambert + 0.18 * normal.z;
   }
 
+  const Image* texture_;
   Image& out_;
   std::vector<double> depth_;  ///< larger is nearer to the eye
 };
@@ -185,27 +211,44 @@ Point Framing::place(const Vec3& p, const Camera& camera, const Image& image) co
   return {0.5 * image.width + dot(d, camera.right), 0.5 * image.height - dot(d, camera.up)};
 }
 
-void draw_mesh(const Connectivity& connectivity, std::span<const float> positions,
-               std::span<const Colour> colours, const Camera& camera, const Framing& framing,
-               Image& out) {
+void draw_painted(const Connectivity& connectivity, std::span<const float> positions,
+                  const Paint& paint, const Camera& camera, const Framing& framing, Image& out) {
   const std::vector<Face> faces = faces_of(connectivity);
   const CornerNormals normals(faces, positions, connectivity.vertex_count);
-  Rasterizer rasterizer(out);
+  Rasterizer rasterizer(paint.texture, out);
   std::vector<Corner> corners;
+  size_t corner = 0;
   for (size_t i = 0; i < faces.size(); ++i) {
     corners.clear();
     for (const uint32_t v : faces[i]) {
       const Vec3 n = normals.at(i, v);
-      const Colour& c = colours.size() == 1 ? colours[0] : colours[v];
+      const Colour& c = paint.corners.size() == 1 ? paint.corners[0] : paint.corners[corner];
       const Point p = framing.place(point(positions, v), camera, out);
       corners.push_back({{p.x, p.y, dot(point(positions, v) - framing.centre, camera.back)},
                          {dot(n, camera.right), dot(n, camera.up), dot(n, camera.back)},
-                         {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}});
+                         {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]},
+                         {}});
+      if (paint.texture != nullptr) {
+        corners.back().place = {paint.texture_coordinates[2 * corner],
+                                paint.texture_coordinates[2 * corner + 1], 0};
+      }
+      ++corner;
     }
     for (size_t k = 2; k < corners.size(); ++k) {
       rasterizer.draw(corners[0], corners[k - 1], corners[k]);
     }
   }
+}
+
+void draw_mesh(const Connectivity& connectivity, std::span<const float> positions,
+               std::span<const Colour> colours, const Camera& camera, const Framing& framing,
+               Image& out) {
+  std::vector<Colour> corners;
+  if (colours.size() != 1) {
+    for (const uint32_t v : connectivity.corners) corners.push_back(colours[v]);
+    colours = corners;
+  }
+  draw_painted(connectivity, positions, {.corners = colours}, camera, framing, out);
 }
 
 Vec3 box_centre(std::span<const float> positions) {

@@ -36,6 +36,17 @@ void draw_mesh(const Connectivity& connectivity, std::span<const float> position
                std::span<const Colour> colours, const Camera& camera, const Framing& framing,
                Image& out);
 
+/// What covers a mesh.
+struct Paint {
+  std::span<const Colour> corners;                  ///< a colour for each corner, or one for all
+  const Image* texture = nullptr;                   ///< if any, instead
+  std::span<const float> texture_coordinates = {};  ///< two for each corner, from the lower left
+};
+
+/// The same, with colours of corners or a texture, which repeats.
+void draw_painted(const Connectivity& connectivity, std::span<const float> positions,
+                  const Paint& paint, const Camera& camera, const Framing& framing, Image& out);
+
 /// Middle of the bounding box of one frame.
 Vec3 box_centre(std::span<const float> positions);
 

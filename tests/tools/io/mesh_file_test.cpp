@@ -57,16 +57,8 @@ TEST_CASE("OBJ: everything around positions and faces is passed over") {
   CHECK(same_bits(frame.positions, {0, 0, 0, 1, 0, 0, 1, 1, 0, 5, -0.5f, 5, 7, 8, 9}));
   CHECK(frame.connectivity.face_sizes == Corners{3, 3, 4, 3});
   CHECK(frame.connectivity.corners == Corners{0, 1, 2, 0, 2, 3, 0, 1, 2, 3, 0, 1, 4});
-  CHECK(frame.unkept == std::vector<Unkept>{{"colours", 1},
-                                            {"texture coordinates", 1},
-                                            {"normals", 1},
-                                            {"materials", 1},
-                                            {"material libraries", 1},
-                                            {"groups", 1},
-                                            {"objects", 1},
-                                            {"smoothing groups", 1},
-                                            {"lines", 1},
-                                            {"points", 1}});
+  CHECK(frame.unkept == std::vector<Unkept>{{"lines", 1}, {"points", 1}});
+  CHECK(frame.attributes.size() == 10);
 }
 
 TEST_CASE("OBJ: a decimal gives the nearest float32, ties to even") {
@@ -171,7 +163,13 @@ TEST_CASE("PLY: ascii and both binary orders, any type, other elements and prope
     CHECK(same_bits(frame.positions, positions));
     CHECK(frame.connectivity.face_sizes == Corners{3, 4});
     CHECK(frame.connectivity.corners == Corners{0, 1, 2, 2, 1, 0, 2});
-    CHECK(frame.unkept == std::vector<Unkept>{{"camera", 1}, {"red", 3}, {"tags", 3}, {"flag", 2}});
+    CHECK(frame.unkept == std::vector<Unkept>{{"camera", 1}, {"list tags", 3}});
+    REQUIRE(frame.attributes.size() == 2);
+    CHECK(frame.attributes[0].name == "red");
+    CHECK(frame.attributes[0].values == std::vector<uint8_t>{9, 9, 9});
+    CHECK(frame.attributes[1].name == "flag");
+    CHECK(frame.attributes[1].domain == Domain::kFace);
+    CHECK(frame.attributes[1].values == std::vector<uint8_t>{1, 0});
   }
 }
 

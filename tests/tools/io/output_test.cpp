@@ -227,8 +227,8 @@ TEST_CASE("frame files are all there or none is") {
   const Sequence sequence = three_frames();
   FrameSource source = source_of(sequence);
   const auto good = source.frame;
-  source.frame = [&](uint32_t i, const Connectivity*& c, std::vector<float>& p) {
-    return i == 2 ? Status::corrupt("frame 3 is broken") : good(i, c, p);
+  source.frame = [&](uint32_t i, SourceFrame& out) {
+    return i == 2 ? Status::corrupt("frame 3 is broken") : good(i, out);
   };
   for (const char* name : {"out/f_%04d.obj", "out.pc2"}) {
     const Status status = write_sequence(source, folder / name, {.threads = 1});

@@ -95,28 +95,17 @@ TEST_CASE("a bad frame is named by file and number") {
   CHECK_THAT(read(folder, sequence, report).message(), Catch::Contains("cannot be read"));
 }
 
-TEST_CASE("what the codec does not keep is said once") {
+TEST_CASE("what is not kept is said once, and of further frames what is new") {
   const TempFolder folder;
-  folder.write("f1.obj", "v 0 0 0\nvt 0 0\nf 1/1 1/1 1/1\n");
-  folder.write("f2.obj", "v 0 0 1\nvt 0 0\nf 1/1 1/1 1/1\n");
+  folder.write("f1.obj", "v 0 0 0\nf 1 1 1\np 1\n");
+  folder.write("f2.obj", "v 0 0 1\nf 1 1 1\np 1\n");
+  folder.write("f3.obj", "v 0 0 1\nf 1 1 1\np 1\nl 1 1\n");
   Sequence sequence;
   ReadReport report;
   REQUIRE(read(folder, sequence, report).ok());
-  REQUIRE(report.notes.size() == 1);
-  CHECK_THAT(report.notes[0], Catch::Contains("texture coordinates"));
-}
-
-TEST_CASE("what further frames have that is not kept is said, too") {
-  const TempFolder folder;
-  folder.write("f1.obj", "v 0 0 0\nvt 0 0\nf 1/1 1/1 1/1\n");
-  folder.write("f2.obj", "v 0 0 1 1 0 0\nvt 0 0\nf 1/1 1/1 1/1\n");
-  folder.write("f3.obj", "v 0 0 1 1 0 0\nvt 0 0\nf 1/1 1/1 1/1\nl 1 1\n");
-  Sequence sequence;
-  ReadReport report;
-  REQUIRE(read(folder, sequence, report).ok());
-  REQUIRE(report.notes.size() == 3);
-  CHECK_THAT(report.notes[1], Catch::Contains("f2.obj") && Catch::Contains("not: colours (1)"));
-  CHECK_THAT(report.notes[2], Catch::Contains("f3.obj") && Catch::Contains("not: lines (1)"));
+  REQUIRE(report.notes.size() == 2);
+  CHECK_THAT(report.notes[0], Catch::EndsWith("f1.obj: not kept: points (1)"));
+  CHECK_THAT(report.notes[1], Catch::EndsWith("f3.obj: not kept: lines (1)"));
 }
 
 TEST_CASE("bytes behind the end are told once for all files") {
@@ -149,15 +138,17 @@ TEST_CASE("what binary32 does not hold is told and kept apart") {
              Catch::Contains("f2.obj: binary32 does not hold") && Catch::Contains("by up to 1 ("));
 }
 
-TEST_CASE("what the mesh beside a cache has and is not kept is said") {
+TEST_CASE("what the mesh beside a cache has is kept, or it is said") {
   const TempFolder folder;
-  folder.write("walk.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 1//1 1//1\n");
+  folder.write("walk.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 1//1 1//1\nl 1 1\n");
   folder.write("walk.pc2", cache_header(CacheFormat::kPc2, 1, 1, 0, 0, 1) + std::string(12, '\0'));
   Sequence sequence;
   ReadReport report;
   REQUIRE(read(folder, sequence, report).ok());
   REQUIRE(report.notes.size() == 1);
-  CHECK_THAT(report.notes[0], Catch::Contains("walk.obj") && Catch::Contains("normals (1)"));
+  CHECK_THAT(report.notes[0], Catch::EndsWith("walk.obj: not kept: lines (1)"));
+  REQUIRE(sequence.shots[0].attributes.size() == 1);
+  CHECK(sequence.shots[0].attributes[0].name == "vn");
 }
 
 TEST_CASE("a mesh and a cache") {

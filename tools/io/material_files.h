@@ -1,0 +1,20 @@
+// Material texts of OBJ files and the textures they name, as resources.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "codec/common/base/sequence.h"
+
+namespace reeb::tools {
+
+/// Adds the files that `mtllib` names in the shot, and the images that those name, to `resources`,
+/// each once. They are looked for in `folder`; `notes` tells what is not there.
+void add_material_files(const std::filesystem::path& folder, const Shot& shot,
+                        std::vector<Resource>& resources, std::vector<std::string>& notes);
+
+/// The file names in a material text, as they stand there.
+std::vector<std::string> textures_of(std::string_view text);
+
+}  // namespace reeb::tools
