@@ -408,9 +408,10 @@ void add_coding_options(CLI::App& command, Options& o) {
       .add_option(
           "--open-groups", o.encoder.open_groups,
           "Groups in a row, 0 to 63, that may continue the group before: smaller, but a seek "
-          "decodes the whole run; main profile only; default 0")
+          "decodes the whole run; main profile only; default chosen with the length of groups, 0 "
+          "where that is given")
       ->excludes("--lossless")
-      ->check(CLI::Range(0u, kMaxOpenGroups).description(""))
+      ->check(CLI::Range(0, static_cast<int>(kMaxOpenGroups)).description(""))
       ->type_name("N")
       ->group(group);
   command

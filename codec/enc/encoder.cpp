@@ -52,7 +52,8 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   if (options.effort < kMinEffort || options.effort > kMaxEffort) {
     return Status::invalid("effort is not within 1 to 9");
   }
-  if (options.open_groups > kMaxOpenGroups) return Status::invalid("open_groups is above 63");
+  if (options.open_groups > static_cast<int>(kMaxOpenGroups))
+    return Status::invalid("open_groups is above 63");
   if (options.profile == Profile::kLossless && !lossless)
     return Status::invalid("the lossless profile has no target but Target::kLossless");
   if (options.open_groups > 0 && !lossless && !tools_of(options.profile).open_groups) {
@@ -141,7 +142,8 @@ EncodeOptions with_room_for_boxes(const Sequence& sequence, const EncodeOptions&
   const double unit = bytes_of_unit(sequence, options);
   if (!options.bounds || unit == 0) return out;
   size_t bytes = kMaxFrontBytes;
-  for (const Shot& shot : sequence.shots) bytes += plan_groups(shot, options).size() * kBoxBytes;
+  for (const Shot& shot : sequence.shots)
+    bytes += plan_groups(shot, options).lengths.size() * kBoxBytes;
   const double rest = options.target_value - static_cast<double>(bytes) / unit;
   if (rest > 0) out.target_value = rest;
   return out;

@@ -35,8 +35,9 @@ struct EncodeOptions {
   double target_value = 0.05;  ///< > 0, an error also 0; unit as the target says
   uint32_t group_length = 0;   ///< frames per group, 1 .. 65536; 0 = chosen by the encoder
   /// Groups in a row, 0 .. 63, that may continue the group before: fewer bits, but a seek decodes
-  /// the whole run; main profile only. 0 = every group decodes alone.
-  uint32_t open_groups = 0;
+  /// the whole run; main profile only. 0 = every group decodes alone; -1 = chosen with the length
+  /// of groups, 0 where that is given.
+  int open_groups = -1;
   bool reorder = false;  ///< drop the vertex order of the input (saves bits)
   Profile profile = Profile::kMain;
   int effort = kDefaultEffort;  ///< 1 (quickest) .. 9 (smallest): encoding time traded for rate

@@ -263,7 +263,7 @@ void add_groups(Maker& m) {
   m.add("static", "Nothing moves: the reference mesh is refined, no time is used.", torus(10, 8), 8,
         at(0.05), rest);
   m.add("long", "160 frames of few vertices that go their own ways: more than 64 components.",
-        torus(6, 5), 160, at(1), scatter);
+        torus(6, 5), 160, with(at(1), Profile::kMain, 0, 160), scatter);
   m.add("fine", "A small error: large residuals.", torus(12, 9), 6, at(0.001));
   m.add("coarse", "A large error: hardly any residuals.", torus(12, 9), 12, at(3));
   Sequence named = sequence_of({animate(tetrahedron(), 3)});

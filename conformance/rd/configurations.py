@@ -45,7 +45,7 @@ class Configuration:
         target = ("--lossless",) if self.unit == "lossless" else ("--" + self.unit, setting)
         return [programs["reeb"], "encode", *inputs, "-o", stream, *target, *self.options, "--no-report",
                 "--attribute", "*=drop",  # peers code positions alone
-                "-T", "1", "--json", "-q"]
+                "--group-length", "512", "-T", "1", "--json", "-q"]
 
     def decode_command(self, programs, stream, decoded):
         if self.peer:

@@ -28,10 +28,11 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
       reorder_(options.reorder),
       profile_(options.profile),
       bound_(options.target == Target::kMaxError ? options.target_value : 0),
-      open_groups_(options.open_groups),
       longest_side_(bounds_of(shot.frame(0)).side) {
+  const GroupPlan groups = plan_groups(shot, options);
+  open_groups_ = groups.open_groups;
   uint32_t first = 0;
-  for (const uint32_t length : plan_groups(shot, options)) {
+  for (const uint32_t length : groups.lengths) {
     GroupSignal signal = make_group_signal(shot, first, length);
     energy_ += signal.energy;
     largest_ = std::max(largest_, signal.largest);

@@ -103,7 +103,7 @@ class ShotEncoder {
   bool reorder_;
   Profile profile_;
   double bound_;  ///< on the error of every coordinate, world units; 0 = none
-  uint32_t open_groups_;
+  uint32_t open_groups_ = 0;
   std::vector<Group> groups_;
   std::vector<MadeSurface> made_;
   SharedSurface surface_;                               ///< prepared last

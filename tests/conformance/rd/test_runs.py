@@ -94,7 +94,7 @@ class RunTest(unittest.TestCase):
         self.assertEqual((row["bytes"], row["kg"], row["sted"], row["vertices"]), (200, 0.5, 3, 4))
         self.assertEqual(row["bpvf"], 200)  # 8 * 200 / (4 * 2)
         self.assertEqual(row["command"], "reeb encode walk.obj walk.pc2 -o walk.reeb --kg 0.5 --no-report "
-                                         "--attribute *=drop -T 1")
+                                         "--attribute *=drop --group-length 512 -T 1")
         self.assertIn(("walk", "reeb-fast", "kg=0.1"), rows)
         self.assertNotEqual(rows["walk", "reeb-reorder", "kg=0.5"]["sted"], 3)  # its order is not known
         self.assertGreater(row["encode_s"], 0)
