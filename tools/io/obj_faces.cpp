@@ -53,6 +53,10 @@ class CornerValues {
 
   void add_to(uint64_t unreadable, MeshFrame& out) {
     find_faces(unreadable, out);
+    if (without_ == none_.size()) {  // none has them at all its corners
+      out.unkept.push_back({std::string(kListWords[which_]) + " of no corner", list_.size()});
+      return;
+    }
     const uint32_t channels = which_ == 0 ? std::max(list_.channels, 1u) : 3;
     std::vector<float> values(entries_.size() * channels);
     std::vector<uint8_t> used(list_.size());
