@@ -13,7 +13,7 @@ fuzzers=(archive connectivity container decode group mesh_file push reference)
 run() {
   local name=$1 status=0
   local fuzzer=$build/tests/fuzz/${name}_fuzz corpus=tests/fuzz/corpus/$name log=$build/found/$name.log
-  mkdir -p "$build/found/$name" "$corpus"
+  mkdir -p "$build/found/$name" "$corpus" "$build/seeds/$name"
   "$fuzzer" -max_len=16384 -rss_limit_mb=1500 -timeout=20 -max_total_time="$seconds" -verbosity=0 -print_final_stats=1 \
     -artifact_prefix="$build/found/" "$build/found/$name" "$corpus" "$build/seeds/$name" >"$log" 2>&1 || status=$?
   grep -E 'ERROR|SUMMARY|artifact|#[0-9]+ 0x' "$log" || true
