@@ -76,7 +76,7 @@ class MetadataAdder {
   template <class Header>
   Status append(const Header& header, const ChunkType& type) {
     std::vector<uint8_t> payload;
-    const Status status = write_header(header, to_string(type), payload);
+    Status status = write_header(header, to_string(type), payload);
     if (status.ok()) append_chunk(out_, type, payload);
     return status;
   }
@@ -96,7 +96,7 @@ Status add_metadata(std::span<const uint8_t> file, const std::vector<MetadataEnt
                     std::vector<uint8_t>& out) {
   out.clear();
   if (file.size() < kPreambleBytes) return Status::corrupt("metadata: the file is not whole");
-  const Status status = MetadataAdder(file, out).run(entries);
+  Status status = MetadataAdder(file, out).run(entries);
   if (!status.ok()) out.clear();
   return status;
 }
