@@ -62,7 +62,7 @@ class Chooser {
     Shape shape;
     for (const float x : samples_) shape.extend(shape_of(x));
     while (pays(shape)) {
-      const NumberSet set(shape.digits, shape.decimals);
+      NumberSet set(shape.digits, shape.decimals);
       Shape wider = shape;
       if (fits(set, wider)) return set;
       if (wider == shape) break;
