@@ -18,6 +18,7 @@ import tempfile
 
 import faulty
 import frames
+import stream_parts
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "streams"
 LARGEST = 60000  # bytes of a stream
@@ -63,7 +64,7 @@ def record(build, kind, name, status, sentence):
         sys.exit("%s has %d bytes" % (name, len(data)))
     given = decode(build, stream, status)
     count = given["count"] if isinstance(given, dict) else len(given)
-    return {"status": status, "quick": faulty.work(data) <= QUICK, "frames": given,
+    return {"status": status, "quick": stream_parts.work(data) <= QUICK, "frames": given,
             "sentence": sentence, "result": "%s, %d frame%s" % (status, count, "" if count == 1 else "s")}
 
 
