@@ -9,21 +9,23 @@
 
 namespace reeb {
 
-LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
-                                    const LosslessMethod& method, unsigned threads) {
-  BinaryEncoder bits;
-  RawBitWriter raw;
+namespace {
+
+/// The numbers that coordinates are taken from, and the grids of frames where those are asked for.
+struct NumberChoice {
   NumberSets sets;
   std::array<GridChoice, 3> grids;
-  for (uint32_t a = 0; a < 3; ++a) {
-    sets[a] = method.step > 0 ? NumberSet::multiples(method.step) : choose_number_set(frames, a);
-    if (method.step == 0 && grids[a].choose(frames, a, sets[a])) sets[a] = NumberSet::of_frames();
-  }
-  code_number_sets(raw, sets);
+};
+
+LosslessGroup code_group(const SurfaceContext& surface, const ExactFrames& frames,
+                         NumberChoice numbers, const LosslessMethod& method, unsigned threads) {
+  BinaryEncoder bits;
+  RawBitWriter raw;
+  code_number_sets(raw, numbers.sets);
   FrameCoder coder(surface.surface.graph,
                    start_positions(surface.surface.points(), surface.surface.order,
                                    surface.header.origin, surface.header.grid_step),
-                   sets, method.quick, threads);
+                   numbers.sets, method.quick, threads);
   RepeatSyntax repeats;
   std::vector<float> frame;
   FrameGrids wanted;
@@ -34,11 +36,38 @@ LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFr
     }
     frame = frames[t];
     for (uint32_t a = 0; a < 3; ++a) {
-      if (sets[a].by_frame()) wanted[a] = grids[a].next(frame);
+      if (numbers.sets[a].by_frame()) wanted[a] = numbers.grids[a].next(frame);
     }
     coder.code(bits, raw, frame.data(), wanted);
   }
   return {surface.rows(), frames.frame_count(), frames.stored_count(), bits.finish(), raw.finish()};
+}
+
+/// False where no axis looks as if grids of frames paid.
+bool choose_grids(const ExactFrames& frames, NumberChoice& numbers) {
+  bool any = false;
+  for (uint32_t a = 0; a < 3; ++a) {
+    if (!numbers.grids[a].choose(frames, a, numbers.sets[a])) continue;
+    numbers.sets[a] = NumberSet::of_frames();
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+LosslessGroup encode_lossless_group(const SurfaceContext& surface, const ExactFrames& frames,
+                                    const LosslessMethod& method, unsigned threads) {
+  NumberChoice numbers;
+  for (uint32_t a = 0; a < 3; ++a) {
+    numbers.sets[a] =
+        method.step > 0 ? NumberSet::multiples(method.step) : choose_number_set(frames, a);
+  }
+  LosslessGroup out = code_group(surface, frames, numbers, method, threads);
+  if (method.step > 0 || !choose_grids(frames, numbers)) return out;
+  // Levels may follow each other less smoothly than the numbers they stand for: both are tried.
+  LosslessGroup other = code_group(surface, frames, numbers, method, threads);
+  return other.bytes() < out.bytes() ? other : out;
 }
 
 }  // namespace reeb

@@ -15,6 +15,8 @@ struct LosslessGroup {
   uint32_t stored_count = 0;         ///< frames that are not copies
   std::vector<uint8_t> differences;  ///< range code
   std::vector<uint8_t> raw;          ///< bits at even odds
+
+  size_t bytes() const { return differences.size() + raw.size(); }
 };
 
 struct LosslessMethod {

@@ -53,8 +53,9 @@ uint32_t distinct_frames(const Shot& shot) {
   return count;
 }
 
-/// Bytes that the shot takes, from those of a few frames.
-Status expect_shot(const Shot& shot, const EncodeOptions& options, double& bytes) {
+/// Adds the bytes that the shot takes, from those of a few frames, or, where even these are more
+/// than `most` with those before, theirs.
+Status expect_shot(const Shot& shot, const EncodeOptions& options, double most, double& bytes) {
   const auto size_of = [&](uint32_t frames, double& size) {
     Sequence sample;
     sample.shots.push_back(middle_of(shot, frames));
@@ -66,6 +67,10 @@ Status expect_shot(const Shot& shot, const EncodeOptions& options, double& bytes
   };
   double front = 0, all = 0;
   if (Status s = size_of(kSampleFront, front); !s.ok()) return s;
+  if (bytes + front > most) {
+    bytes += front;
+    return {};
+  }
   if (Status s = size_of(kSampleFrames, all); !s.ok()) return s;
   const double frames = std::min(shot.frame_count, kSampleFrames);
   const double more = std::max(0.0, distinct_frames(shot) - frames);
@@ -90,7 +95,7 @@ Status offer_lossless(const Sequence& sequence, const EncodeOptions& options,
   sampling.progress = nullptr;
   double expected = 0;
   for (const Shot& shot : sequence.shots) {
-    if (Status s = expect_shot(shot, sampling, expected); !s.ok()) return s;
+    if (Status s = expect_shot(shot, sampling, kDoubt * most, expected); !s.ok()) return s;
     if (expected > kDoubt * most) return {};
   }
   std::vector<uint8_t> exact;
