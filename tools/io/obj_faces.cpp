@@ -277,10 +277,10 @@ void drop_plain_orders(Shot& shot) {
     return true;
   };
   std::erase_if(shot.attributes, [&](const Attribute& index) {
-    for (const Attribute& list : shot.attributes) {
-      if (list.name + ".index" == index.name) return is_plain(list, index);
-    }
-    return false;
+    if (index.semantic != Semantic::kIndex) return false;
+    const Attribute* list = find_attribute(
+        shot.attributes, [&](const Attribute& a) { return a.name + ".index" == index.name; });
+    return list != nullptr && is_plain(*list, index);
   });
 }
 

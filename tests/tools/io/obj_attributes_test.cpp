@@ -218,6 +218,29 @@ TEST_CASE("OBJ: hostile names and indices do no harm to what is written") {
   }
 }
 
+TEST_CASE("OBJ: a list that no face has at all its corners is said and not kept") {
+  const MeshFrame frame = read_ok(kVertices + "vt 0 0\nf 1/1 2 3\nf 1 3/1 4\n", MeshFormat::kObj);
+  CHECK(frame.attributes.empty());
+  CHECK(frame.unkept ==
+        std::vector<Unkept>{{"texture coordinates of faces that have them at some corners only", 2},
+                            {"texture coordinates of no corner", 1}});
+}
+
+TEST_CASE("PLY: properties that are called like the order of a list stay") {
+  const TempFolder folder;
+  folder.write("a.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nproperty int a\nproperty int a.index\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n"
+               "0 0 0 7 0\n1 0 0 8 1\n0 1 0 9 2\n3 0 1 2\n");
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read_sequence({folder / "a.ply"}, {.list_order = true}, sequence, report).ok());
+  const std::vector<Attribute>& attributes = sequence.shots[0].attributes;
+  CHECK(numbers(named(attributes, "a")) == std::vector<float>{7, 8, 9});
+  CHECK(numbers(named(attributes, "a.index")) == std::vector<float>{0, 1, 2});
+}
+
 TEST_CASE("OBJ: material texts and the textures that they name are taken along") {
   CHECK(textures_of("newmtl a\nKd 1 1 1\nmap_Kd -s 2 2 2 -clamp on  wood grain.png \nbump -bm 0.5 "
                     "b.png\nmap_aat on\nrefl -type sphere s.jpg\n") ==
