@@ -31,7 +31,7 @@ bool is_direction(const Attribute& a) {
          a.channel_count >= 3;
 }
 bool is_category(const Attribute& a) {
-  return a.channel_count == 1 &&
+  return a.channel_count == 1 && a.type != ValueType::kBinary32 &&
          (a.semantic == Semantic::kMaterial || a.semantic == Semantic::kGroup);
 }
 
@@ -45,7 +45,10 @@ double magnitude(const Attribute& a, size_t element) {
   return std::sqrt(squared);
 }
 
-uint8_t channel(double part) { return static_cast<uint8_t>(std::clamp(part, 0.0, 1.0) * 255); }
+// What is no number is 0.
+uint8_t channel(double part) {
+  return static_cast<uint8_t>(part > 0 ? std::min(part, 1.0) * 255 : 0);
+}
 
 /// Neighbours in number are far apart in colour.
 Colour category_colour(int64_t value) {
@@ -119,8 +122,10 @@ std::vector<float> texture_coordinates(const Shot& shot, uint32_t t) {
   if (a == nullptr) return out;
   const size_t first = a->animated ? t * shot.element_count(a->domain) : 0;
   for (const size_t element : elements_of_corners(shot.connectivity, a->domain)) {
-    for (size_t c = 0; c < 2; ++c)
-      out.push_back(number_of(*a, (first + element) * a->channel_count + c));
+    for (size_t c = 0; c < 2; ++c) {
+      const float x = number_of(*a, (first + element) * a->channel_count + c);
+      out.push_back(std::isfinite(x) ? x : 0);
+    }
   }
   return out;
 }

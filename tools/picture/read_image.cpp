@@ -17,14 +17,14 @@
 namespace reeb::tools {
 
 Status decode_image(std::string_view bytes, Image& out) {
-  constexpr int64_t kMostPixels = int64_t{1} << 28;
+  constexpr int64_t kMaxPixels = int64_t{1} << 28;
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const Status wrong = Status::corrupt("not a PNG, JPEG, BMP or TGA that can be read");
   if (bytes.size() > INT_MAX) return wrong;
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0 ||
-      int64_t{width} * height > kMostPixels)
+      int64_t{width} * height > kMaxPixels)
     return wrong;
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);

@@ -276,7 +276,7 @@ std::array<double, 2> half_extent(std::span<const float> positions, const Camera
 Colour error_colour(double value) {
   static constexpr std::array<std::array<double, 3>, 4> kRamp{
       {{49, 85, 164}, {226, 232, 236}, {246, 205, 82}, {196, 38, 46}}};
-  const double place = std::clamp(value, 0.0, 1.0) * (kRamp.size() - 1);
+  const double place = (value > 0 ? std::min(value, 1.0) : 0) * (kRamp.size() - 1);  // NaN is 0
   const size_t step = std::min(static_cast<size_t>(place), kRamp.size() - 2);
   const double part = place - static_cast<double>(step);
   Colour out{};
