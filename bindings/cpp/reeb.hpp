@@ -27,6 +27,20 @@ struct IndexView {
   uint32_t operator[](size_t i) const { return data[i]; }
 };
 
+/** Room for a frame of `vertices` vertices in vectors, which take that size; `normals` may be NULL.
+ */
+inline reeb_target target_in(std::vector<float>& positions, std::vector<float>* normals,
+                             size_t vertices) {
+  positions.resize(3 * vertices);
+  if (normals != nullptr) normals->resize(3 * vertices);
+  reeb_target target = {};
+  target.struct_size = sizeof target;
+  target.positions = positions.data();
+  target.normals = normals != nullptr ? normals->data() : nullptr;
+  target.vertex_capacity = vertices;
+  return target;
+}
+
 /** An open stream, closed at the end of its life. Calls but the opening ones need an open one;
  * threads as of reeb_decoder, and nothing else runs while a stream is moved, swapped or closed. A
  * moved-from stream is closed. */
@@ -177,15 +191,7 @@ class Stream {
 
   template <class Decode>
   reeb_result fill(std::vector<float>& positions, std::vector<float>* normals, Decode&& decode) {
-    const size_t vertices = info().max_vertices;
-    positions.resize(3 * vertices);
-    if (normals != nullptr) normals->resize(3 * vertices);
-    reeb_target target = {};
-    target.struct_size = sizeof target;
-    target.positions = positions.data();
-    target.normals = normals != nullptr ? normals->data() : nullptr;
-    target.vertex_capacity = vertices;
-    return decode(target);
+    return decode(target_in(positions, normals, info().max_vertices));
   }
 
   std::unique_ptr<ReadAt> read_at_;  // outlives the decoder

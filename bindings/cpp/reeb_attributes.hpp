@@ -130,14 +130,7 @@ class StreamRenderMesh {
   /** The pose at a position in frames: three floats for each render vertex. */
   [[nodiscard]] reeb_result between(Stream& stream, double position, std::vector<float>& positions,
                                     std::vector<float>* normals = nullptr) const {
-    const size_t vertices = info().vertex_count;
-    positions.resize(3 * vertices);
-    if (normals != nullptr) normals->resize(3 * vertices);
-    reeb_target target = {};
-    target.struct_size = sizeof target;
-    target.positions = positions.data();
-    target.normals = normals != nullptr ? normals->data() : nullptr;
-    target.vertex_capacity = vertices;
+    const reeb_target target = target_in(positions, normals, info().vertex_count);
     return reeb_get_render_between(stream.get(), position, get(), &target);
   }
   /** Values of an attribute, of each render vertex or, where it is one of faces, triangle. */

@@ -67,6 +67,14 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+void MeshFrame::zero_not_finite(const std::string& name, std::vector<float>& values) {
+  const auto bad = static_cast<uint64_t>(
+      std::count_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); }));
+  if (bad == 0) return;
+  for (float& x : values) x = std::isfinite(x) ? x : 0;
+  notes.push_back(counted(bad, "number") + " of \"" + name + "\" not finite, taken as 0");
+}
+
 Status read_mesh(std::string_view bytes, MeshFormat format, const MeshReference* reference,
                  MeshFrame& out) {
   out = MeshFrame();

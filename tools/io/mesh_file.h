@@ -59,6 +59,8 @@ struct MeshFrame {
   std::vector<std::string> notes;  ///< sentences on what is odd but harmless
 
   void append_coordinate(const Real& x);
+  /// Numbers of attribute `name` that are not finite become 0, which is noted.
+  void zero_not_finite(const std::string& name, std::vector<float>& values);
 };
 
 /// Reads the bytes of a file. `reference` may be null. A failure's message says the place and the

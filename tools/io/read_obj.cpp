@@ -324,14 +324,7 @@ class ObjReader {
 
   void add_values(const char* name, Semantic semantic, uint32_t channels,
                   std::vector<float>& values) {
-    uint64_t bad = 0;
-    for (float& x : values) {
-      if (std::isfinite(x)) continue;
-      x = 0;
-      ++bad;
-    }
-    if (bad > 0)
-      out_.notes.push_back(counted(bad, "number") + " of \"" + name + "\" not finite, taken as 0");
+    out_.zero_not_finite(name, values);
     out_.attributes.push_back(
         make_attribute(name, semantic, Domain::kVertex, ValueType::kBinary32, channels, values));
   }

@@ -169,16 +169,12 @@ class OffReader {
   void add(const char* name, Semantic semantic, Domain domain, const Extras& extras, size_t first,
            size_t count) {
     std::vector<float> values;
-    uint64_t bad = 0;
     for (size_t row = 0; row < extras.ended; ++row) {
-      for (size_t i = 0; i < count; ++i) {
-        const float x = extras.numbers[row * extras.in_row + first + i];
-        bad += std::isfinite(x) ? 0 : 1;
-        values.push_back(std::isfinite(x) ? x : 0);
-      }
+      const auto begin =
+          extras.numbers.begin() + static_cast<std::ptrdiff_t>(row * extras.in_row + first);
+      values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
     }
-    if (bad > 0)
-      out_.notes.push_back(counted(bad, "number") + " of \"" + name + "\" not finite, taken as 0");
+    out_.zero_not_finite(name, values);
     const auto channels = static_cast<uint32_t>(count);
     if (semantic != Semantic::kColour || !are_bytes(values)) {
       out_.attributes.push_back(

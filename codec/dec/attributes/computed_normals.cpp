@@ -1,20 +1,35 @@
 #include "codec/dec/attributes/computed_normals.h"
 
+#include <utility>
+
 #include "codec/dec/normals.h"
 
 namespace reeb {
 
 namespace {
 
-/// Positions of the sites: those given, or, of wedges, those of their vertices, in `of_wedges`.
-const float* site_positions(const SiteMesh& sites, std::span<const float> xyz,
-                            std::vector<float>& of_wedges) {
-  for (const uint32_t v : sites.vertex) {
-    const auto at = xyz.begin() + 3 * static_cast<ptrdiff_t>(v);
-    of_wedges.insert(of_wedges.end(), at, at + 3);
+/// Positions of the sites, and the normals that follow from them.
+class SmoothNormals {
+ public:
+  SmoothNormals(const SiteMesh& sites, std::span<const float> xyz)
+      : sums(size_t{3} * sites.count), normals(size_t{3} * sites.count) {
+    for (const uint32_t v : sites.vertex) {
+      const auto at = xyz.begin() + 3 * static_cast<ptrdiff_t>(v);
+      of_wedges_.insert(of_wedges_.end(), at, at + 3);
+    }
+    positions = sites.vertex.empty() ? xyz.data() : of_wedges_.data();
+    vertex_normals(sites.triangles, positions, 3, sums, normals.data(), 3);
   }
-  return sites.vertex.empty() ? xyz.data() : of_wedges.data();
-}
+  SmoothNormals(const SmoothNormals&) = delete;
+  SmoothNormals& operator=(const SmoothNormals&) = delete;
+
+  const float* positions;  ///< those given, or, of wedges, those of their vertices
+  std::vector<double> sums;
+  std::vector<float> normals;
+
+ private:
+  std::vector<float> of_wedges_;
+};
 
 /// Of every site, from it to the next corner of its first triangle.
 std::vector<Direction> first_edges(const SiteMesh& sites, const float* xyz) {
@@ -34,21 +49,13 @@ std::vector<Direction> first_edges(const SiteMesh& sites, const float* xyz) {
 }  // namespace
 
 std::vector<float> computed_normals(const SiteMesh& sites, std::span<const float> xyz) {
-  std::vector<float> of_wedges;
-  const float* positions = site_positions(sites, xyz, of_wedges);
-  std::vector<double> sums(size_t{3} * sites.count);
-  std::vector<float> out(size_t{3} * sites.count);
-  vertex_normals(sites.triangles, positions, 3, sums, out.data(), 3);
-  return out;
+  return std::move(SmoothNormals(sites, xyz).normals);
 }
 
 std::vector<NormalFrame> normal_frames(const SiteMesh& sites, std::span<const float> xyz) {
-  std::vector<float> of_wedges;
-  const float* positions = site_positions(sites, xyz, of_wedges);
-  std::vector<double> sums(size_t{3} * sites.count);
-  std::vector<float> normals(size_t{3} * sites.count);
-  vertex_normals(sites.triangles, positions, 3, sums, normals.data(), 3);
-  const std::vector<Direction> edges = first_edges(sites, positions);
+  const SmoothNormals smooth(sites, xyz);
+  const std::vector<double>& sums = smooth.sums;
+  const std::vector<Direction> edges = first_edges(sites, smooth.positions);
   std::vector<NormalFrame> out;
   out.reserve(sites.count);
   for (size_t s = 0; s < sites.count; ++s)
