@@ -174,18 +174,6 @@ Bytes clumps(uint32_t of_seven, uint32_t of_nine) {
   return build_file(build_listed_mesh(s.connectivity, on_grid(s, 5)), plain_group(1, 1));
 }
 
-/// A strip with every triangle twice, of which a sweep takes out no more than its ends.
-Shape doubled_strip(uint32_t vertices) {
-  Shape s{.name = "strip", .connectivity = {}, .positions = {}};
-  for (uint32_t v = 0; v < vertices; ++v)
-    s.add_vertex(static_cast<float>(v / 2), static_cast<float>(v % 2), 0);
-  for (uint32_t v = 0; v + 2 < vertices; ++v) {
-    s.add_face({v, v + 1, v + 2});
-    s.add_face({v, v + 1, v + 2});
-  }
-  return s;
-}
-
 /// Every vertex in triangles with the five before and after it, of which a sweep takes out no more
 /// than the ends where positions do not count.
 Shape band(uint32_t vertices) {

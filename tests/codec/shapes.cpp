@@ -58,6 +58,17 @@ Shape strip(uint32_t triangles) {
   return s;
 }
 
+Shape doubled_strip(uint32_t vertices) {
+  Shape s{.name = "doubled_strip", .connectivity = {}, .positions = {}};
+  for (uint32_t v = 0; v < vertices; ++v)
+    s.add_vertex(static_cast<float>(v / 2), static_cast<float>(v % 2), 0);
+  for (uint32_t v = 0; v + 2 < vertices; ++v) {
+    s.add_face({v, v + 1, v + 2});
+    s.add_face({v, v + 1, v + 2});
+  }
+  return s;
+}
+
 Shape grid(uint32_t columns, uint32_t rows) {
   Shape s{.name = "grid", .connectivity = {}, .positions = {}};
   for (uint32_t y = 0; y < rows; ++y) {

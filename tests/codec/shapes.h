@@ -21,6 +21,7 @@ struct Shape {
 
 Shape tetrahedron();
 Shape strip(uint32_t triangles);                   ///< open, in the plane
+Shape doubled_strip(uint32_t vertices);            ///< every triangle twice
 Shape grid(uint32_t columns, uint32_t rows);       ///< open square of quadrilaterals, wavy
 Shape torus(uint32_t around, uint32_t across);     ///< triangles, radii 3 and 1
 Shape hub(uint32_t spokes);                        ///< a closed fan around one vertex
