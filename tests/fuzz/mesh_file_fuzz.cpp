@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "tools/io/material_files.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/point_cache.h"
 
@@ -85,12 +86,19 @@ void read_as_cache(std::string_view bytes, CacheFormat format) {
           cache.frames_per_sample > 0);
 }
 
+// Names are parts of single lines.
+void read_as_material(std::string_view bytes) {
+  for (const std::string& name : textures_of(bytes))
+    require(!name.empty() && bytes.find(name) != bytes.npos &&
+            name.find_first_of("\r\n") == name.npos);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 6) {
+  switch (data[0] % 7) {
     case 0:
       read_as_mesh(bytes, MeshFormat::kObj);
       break;
@@ -106,8 +114,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     case 4:
       read_as_cache(bytes, CacheFormat::kPc2);
       break;
-    default:
+    case 5:
       read_as_cache(bytes, CacheFormat::kMdd);
+      break;
+    default:
+      read_as_material(bytes);
   }
   return 0;
 }
