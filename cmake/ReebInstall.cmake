@@ -84,3 +84,12 @@ if(REEB_BUILD_ENCODER)
     reeb_install_package_files(${component})
   endforeach()
 endif()
+
+# A build linked as it lies, without an installation: see bindings/python.
+if(REEB_BUILD_BINDINGS AND REEB_BUILD_ENCODER)
+  export(
+    TARGETS reeb_rules reeb_entropy reeb_bitstream reeb_common reeb_decoder reeb_static reeb_segmentation reeb_retrieval
+            reeb_encoder reeb_tools reeb_commands
+    NAMESPACE reeb::
+    FILE ${PROJECT_BINARY_DIR}/reeb-build-targets.cmake)
+endif()
