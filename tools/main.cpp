@@ -1,6 +1,10 @@
 // The `reeb` command.
 #include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tools/archive_command.h"
 #include "tools/command.h"
@@ -8,6 +12,23 @@
 #include "tools/interrupt.h"
 #include "tools/segment_command.h"
 #include "tools/version.h"
+
+namespace {
+
+// What follows the program's name, last one first as CLI11 takes it. It would take "[a]" apart as a
+// list, though a folder may be named so.
+std::vector<std::string> arguments(int argc, char** argv) {
+  std::vector<std::string> out(std::make_reverse_iterator(argv + argc),
+                               std::make_reverse_iterator(argv + 1));
+  for (std::string& a : out) {
+    std::error_code ignored;
+    if (a.starts_with('[') && a.ends_with(']') && std::filesystem::exists(a, ignored))
+      a.insert(0, "./");
+  }
+  return out;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace reeb::tools;
@@ -36,7 +57,7 @@ int main(int argc, char** argv) {
   add_help_command(app, exit_code);
 
   try {
-    app.parse(argc, argv);
+    app.parse(arguments(argc, argv));
   } catch (const CLI::ParseError& error) {
     std::ostringstream help;
     return app.exit(error, help) == 0 ? print(help.str()) : kExitUsage;

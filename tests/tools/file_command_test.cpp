@@ -64,6 +64,18 @@ TEST_CASE("frames keep the order in which they are named") {
   CHECK(read_text(folder / "d_3.obj") == "v 1 0 0\n");
 }
 
+TEST_CASE("a folder in brackets is no list") {
+  const TempFolder folder;
+  folder.write("[a,b]/f_1.obj", "v 1 0 0\n");
+  const auto enter = [&] {
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(97);
+  };
+  const CommandResult result =
+      run_reeb({"encode", "[a,b]", "-o", folder / "o.reeb", "--lossless"}, "/dev/null", enter);
+  CHECK(result.err.find("no such file") == std::string::npos);
+  CHECK(result.exit_code == kExitDone);
+}
+
 TEST_CASE("a file beyond the size limit is an error that leaves nothing") {
   const TempFolder folder;
   REQUIRE(run_reeb({"sample", "sheet", "--length", "3", "-o", folder / "s.pc2"}).exit_code ==

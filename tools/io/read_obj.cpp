@@ -89,14 +89,32 @@ class ObjReader {
   // Up to the end of its last line.
   Status read_statement() {
     const char first = in_.peek();
-    if (first == 'v' && is_blank(in_.peek(1))) return read_vertex();
-    if (first == 'f' && is_blank(in_.peek(1))) return read_face();
-    if (first == 'v' && is_blank(in_.peek(2))) {
+    if (first == 'v' && ends_keyword(1)) return read_vertex();
+    if (first == 'f' && ends_keyword(1)) return read_face(1);
+    if (first == 'v' && ends_keyword(2)) {
       if (in_.peek(1) == 't') return read_entry(lists_[0], 1);
       if (in_.peek(1) == 'n') return read_entry(lists_[1], 3);
     }
     if (in_.at_line_end()) return {};
     return first == '#' ? skip_comment() : read_other();
+  }
+
+  bool ends_keyword(size_t size) const {
+    const char c = in_.peek(size);
+    return is_blank(c) || is_line_end(c) || c == '\\' || size == in_.remaining();
+  }
+
+  // Up to a blank, the end of the line or a backslash behind which the line continues.
+  std::string_view read_word() {
+    const TextCursor start = in_;
+    std::string_view word = in_.word();
+    TextCursor behind = in_;
+    behind.skip_blanks();
+    if (!word.ends_with('\\') || !behind.at_line_end() || behind.done()) return word;
+    word.remove_suffix(1);
+    in_ = start;
+    in_.advance(word.size());
+    return word;
   }
 
   // It ends with its line, even behind a backslash.
@@ -173,7 +191,8 @@ class ObjReader {
     return skip_comment();
   }
 
-  Status read_face() {
+  // Behind a keyword of so many letters.
+  Status read_face(size_t keyword) {
     if (first_face_ == text_.npos) {
       first_face_ = in_.offset();
       faces_->begin(lists_);
@@ -182,7 +201,7 @@ class ObjReader {
         return {};
       }
     }
-    in_.word();
+    in_.advance(keyword);
     const size_t face = out_.connectivity.face_sizes.size();
     for (ObjNames& names : faces_->names) names.take(face);
     faces_->smoothing.take(face);
@@ -231,10 +250,10 @@ class ObjReader {
 
   Status read_other() {
     const TextCursor start = in_;
-    const std::string_view keyword = in_.word();
+    const std::string_view keyword = read_word();
     if (keyword == "fo") {  // the predecessor's name of a face
       in_ = start;
-      return read_face();
+      return read_face(keyword.size());
     }
     if (read_name(keyword)) return {};
     size_t i = 0;
@@ -274,7 +293,7 @@ class ObjReader {
     for (in_.skip_blanks_and_continuations(); !in_.at_line_end();
          in_.skip_blanks_and_continuations()) {
       if (!out.empty()) out += ' ';
-      out += in_.word();
+      out += read_word();
     }
     return out;
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -49,12 +51,14 @@ class OffReader {
     return in_.at_line_end() || in_.peek() == '#';
   }
   bool take(std::string_view letters) {
-    const bool there = in_.rest().starts_with(letters);
+    const std::string_view next = in_.rest().substr(0, letters.size());
+    const bool there = std::equal(next.begin(), next.end(), letters.begin(), letters.end(),
+                                  [](unsigned char a, char b) { return std::toupper(a) == b; });
     if (there) in_.advance(letters.size());
     return there;
   }
 
-  // [ST][C][N]OFF. It may be missing, and the first count may be glued to it.
+  // [ST][C][N]OFF, in any case. It may be missing, and the first count may be glued to it.
   Status read_keyword() {
     skip_to_content();
     if (is_digit(in_.peek())) return {};

@@ -165,7 +165,7 @@ std::vector<Unkept> unkept(const PlyHeader& header) {
 
 Status read_ply(std::string_view bytes, MeshFrame& out) {
   std::string_view file;
-  if (Status status = open_text(bytes, file); !status.ok()) return status;
+  if (Status status = skip_mark(bytes, file); !status.ok()) return status;
   PlyHeader header;
   if (Status status = read_ply_header(file, header); !status.ok()) return status;
   out.unkept = unkept(header);

@@ -126,17 +126,20 @@ class StlTextReader {
 };
 
 Status read_soup(std::string_view bytes, Soup& out) {
-  // Binary files may begin with "solid", too, so their size decides, and zeros in what else could
-  // be text.
+  // Binary files may begin with "solid", too, so their size decides, and zeros within what else
+  // could be text.
   const bool has_header = bytes.size() >= kHeaderBytes;
-  const bool has_zeros = bytes.substr(0, 512).find('\0') != bytes.npos;
+  const std::string_view unpadded = bytes.substr(0, bytes.find_last_not_of('\0') + 1);
+  const bool has_zeros = unpadded.substr(0, 512).find('\0') != bytes.npos;
   const bool fits = has_header && (bytes.size() - kHeaderBytes) % kTriangleBytes == 0 &&
                     (bytes.size() - kHeaderBytes) / kTriangleBytes ==
                         little_endian_word(bytes.data() + kHeaderBytes - 4);
   if (fits) return read_binary(bytes, out);
   std::string_view text;
-  if (Status status = open_text(bytes, text); !status.ok()) return status;
+  if (Status status = open_text(has_zeros ? bytes : unpadded, text); !status.ok()) return status;
   if (has_header && has_zeros) return read_binary(bytes, out);
+  if (const size_t zeros = bytes.size() - unpadded.size(); zeros > 0)
+    out.notes.push_back(counted(zeros, "zero byte") + " behind the text ignored");
   return StlTextReader(text, out).run();
 }
 

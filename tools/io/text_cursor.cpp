@@ -78,11 +78,17 @@ Status TextCursor::unexpected(const std::string& wanted) const {
   return error(found + remedy(word));
 }
 
-Status open_text(std::string_view bytes, std::string_view& text) {
+Status skip_mark(std::string_view bytes, std::string_view& out) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
     return Status::corrupt("text in UTF-16; save it as ASCII or UTF-8");
   }
-  text = bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+  out = bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+  return {};
+}
+
+Status open_text(std::string_view bytes, std::string_view& text) {
+  if (Status status = skip_mark(bytes, text); !status.ok()) return status;
+  if (text.ends_with('\x1a')) text.remove_suffix(1);
   return {};
 }
 

@@ -99,7 +99,9 @@ class TextCursor {
   const char* end_;
 };
 
-/// A text without its byte-order mark. UTF-16 is refused by name.
+/// What follows a byte-order mark. UTF-16 is refused by name.
+Status skip_mark(std::string_view bytes, std::string_view& out);
+/// A text without its byte-order mark and the character that ended files of CP/M and DOS.
 Status open_text(std::string_view bytes, std::string_view& text);
 
 }  // namespace reeb::tools

@@ -67,6 +67,7 @@ TEST_CASE("any ends of lines and a byte-order mark are read in every text") {
     std::string mixed = text;
     mixed.replace(mixed.find('\n'), 1, "\r\n");
     check_triangle(mixed, format);
+    if (format != MeshFormat::kPly) check_triangle(text + "\x1a", format);
     std::string utf16 = "\xff\xfe";
     for (const char c : text) utf16 += {c, '\0'};
     CHECK_THAT(failure(utf16, format), Contains("UTF-16"));
@@ -117,10 +118,25 @@ TEST_CASE("OBJ: lines continue anywhere") {
                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1\\\n 3/1\n",
                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\ \n3\n",
                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 \\\n0\ng a \\\nb\nf \\\n1 2 3 \\\n",
-                           "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 \\\r\n1 2\r\nf 1 2 3\r\n"}) {
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 \\\r\n1 2\r\nf 1 2 3\r\n",
+                           "v\\\n0 0 0\nv\\ \n 1 0 0\nv 0 1 0\nvt\\\r\n1\nf\\\r1 2 3\n",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\ng\\\na\\\nb\nl\\\n1 2\nfo\\\n1 2 3\n"}) {
     check_triangle(text, MeshFormat::kObj);
   }
   CHECK_THAT(failure("v 0 0 0\nf 1 \\1 1\n", MeshFormat::kObj), Contains("line 2"));
+  CHECK_THAT(failure("v 0 0 0\nf\\1 1 1\n", MeshFormat::kObj), Contains("line 2"));
+}
+
+TEST_CASE("OBJ: a keyword alone is a statement of which everything is missing") {
+  for (const char* end : {"\n", "\r", "", " \n"}) {
+    INFO(end);
+    CHECK_THAT(failure(std::string("v 0 0 0\nv") + end, MeshFormat::kObj),
+               Contains("line 2") && Contains("coordinates of a vertex"));
+    CHECK_THAT(failure(std::string("v 0 0 0\nf") + end, MeshFormat::kObj),
+               Contains("line 2") && Contains("a face without vertices"));
+    CHECK_THAT(failure(std::string("v 0 0 0\nvt") + end, MeshFormat::kObj), Contains("line 2"));
+    CHECK_THAT(failure(std::string("v 0 0 0\nvn") + end, MeshFormat::kObj), Contains("line 2"));
+  }
 }
 
 TEST_CASE("OBJ: corners are what they may be") {
@@ -156,7 +172,7 @@ TEST_CASE("OFF: the words may stand on any lines, and the keyword may be missing
        {"OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
         "OFF\n3\n1\n0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF 3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n",
         "OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF 3 1\n0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2",
-        "OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2",
+        "OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2", "off 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2",
         "OFF\n# c\n3 1 0 # d\n\n0 0\n0 1 0 0 0\n1\n0\n3 0\n1 2\n",
         "OFF 3 1 0\n0 0 0 # a\n1 0 0\n# b\n0 1 0\n\n3 0 1 2 # c\n# d\n"}) {
     CHECK(check_triangle(text, MeshFormat::kOff).unkept.empty());
@@ -189,6 +205,8 @@ TEST_CASE("STL: keywords in any case, ends in one word or two, blank lines") {
     CHECK(check_triangle(text, MeshFormat::kStl).unkept.empty());
   }
   CHECK(with_name(read_ok(kStl + kStl, MeshFormat::kStl)) == "solids 2; ");
+  const MeshFrame padded = check_triangle(kStl + std::string(3, '\0'), MeshFormat::kStl);
+  CHECK(padded.notes == std::vector<std::string>{"3 zero bytes behind the text ignored"});
   CHECK_THAT(failure(replaced(kStl, "endloop", "vertex 0 0 0\nendloop"), MeshFormat::kStl),
              Contains("line 7: 'vertex' is not 'endloop'"));
   CHECK_THAT(failure(replaced(kStl, "facet normal", "facette normal"), MeshFormat::kStl),
