@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "entropy/table.h"
+
 namespace reeb {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr size_t kSlices = 8;
 using Tables = std::array<std::array<uint32_t, 256>, kSlices>;
 
 // tables[k][b]: effect of byte b followed by k zero bytes, so that eight bytes go in one step.
-constexpr Tables make_tables() {
+REEB_TABLE_MAKER Tables make_tables() {
   Tables tables{};
   for (uint32_t b = 0; b < 256; ++b) {
     uint32_t crc = b;
@@ -26,7 +28,7 @@ constexpr Tables make_tables() {
   return tables;
 }
 
-constexpr Tables kTables = make_tables();
+REEB_TABLE Tables kTables = make_tables();
 
 }  // namespace
 

@@ -19,6 +19,20 @@ std::string number(T value) {
   return {text, end.ptr};
 }
 
+std::string out_of_range(uint64_t value) { return "is out of range: " + number(value); }
+
+// The tables for texts of real numbers are as large as half a decoder: those that cannot have them
+// leave the number out.
+#ifdef REEB_WITHOUT_REAL_TEXT
+std::string real_text(double, bool) { return "?"; }
+std::string out_of_range(double) { return "is out of range"; }
+#else
+std::string real_text(double value, bool wide) {
+  return wide ? number(value) : number(static_cast<float>(value));
+}
+std::string out_of_range(double value) { return "is out of range: " + number(value); }
+#endif
+
 // Text inside quotes, bytes that would break a line or a terminal as \xNN.
 std::string quoted(std::string_view text) {
   constexpr char kHex[] = "0123456789abcdef";
@@ -60,7 +74,7 @@ void SyntaxReader::integer_field(const char* name, uint64_t& value, uint64_t low
   const size_t offset = in_.position();
   value = one_byte ? in_.u8() : in_.varuint();
   const bool in_range = value >= lowest && value <= highest;
-  if (check_bytes(name) && !in_range) fail(name, "is out of range: " + number(value));
+  if (check_bytes(name) && !in_range) fail(name, out_of_range(value));
   trace_line(offset, name, number(value));
   if (!status_.ok()) value = lowest;
 }
@@ -69,8 +83,8 @@ void SyntaxReader::real(const char* name, double& value, double lowest, double h
   const size_t offset = in_.position();
   value = wide ? in_.f64() : double{in_.f32()};
   const bool in_range = value >= lowest && value <= highest;  // false for NaN
-  if (check_bytes(name) && !in_range) fail(name, "is out of range: " + number(value));
-  trace_line(offset, name, wide ? number(value) : number(static_cast<float>(value)));
+  if (check_bytes(name) && !in_range) fail(name, out_of_range(value));
+  if (lines_ != nullptr) trace_line(offset, name, real_text(value, wide));
   if (!status_.ok()) value = lowest;
 }
 
@@ -99,7 +113,7 @@ void SyntaxWriter::fail(const char* name, std::string_view what) {
 
 void SyntaxWriter::integer_field(const char* name, uint64_t& value, uint64_t lowest,
                                  uint64_t highest, bool one_byte) {
-  if (value < lowest || value > highest) fail(name, "is out of range: " + number(value));
+  if (value < lowest || value > highest) fail(name, out_of_range(value));
   if (one_byte) {
     out_.push_back(static_cast<uint8_t>(value));
   } else {
@@ -108,7 +122,7 @@ void SyntaxWriter::integer_field(const char* name, uint64_t& value, uint64_t low
 }
 
 void SyntaxWriter::real(const char* name, double& value, double lowest, double highest, bool wide) {
-  if (!(value >= lowest && value <= highest)) fail(name, "is out of range: " + number(value));
+  if (!(value >= lowest && value <= highest)) fail(name, out_of_range(value));
   if (wide) {
     append_f64(out_, value);
   } else {

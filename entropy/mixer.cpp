@@ -1,5 +1,7 @@
 #include "entropy/mixer.h"
 
+#include "entropy/table.h"
+
 namespace reeb {
 
 namespace {
@@ -10,7 +12,7 @@ constexpr int kSquashSize = 2 * kSquashLimit + 1;
 // any table value lies to a rounding tie (a test checks every entry).
 constexpr double kStepRatio = 1.0039138893383475734;
 
-constexpr std::array<Probability, kSquashSize> make_squash() {
+REEB_TABLE_MAKER std::array<Probability, kSquashSize> make_squash() {
   std::array<Probability, kSquashSize> table{};
   double e = 1.0;  // exp(x / 256)
   for (int x = 0; x <= kSquashLimit; ++x, e *= kStepRatio) {
@@ -23,8 +25,8 @@ constexpr std::array<Probability, kSquashSize> make_squash() {
   return table;
 }
 
-constexpr std::array<int16_t, 4096> make_stretch() {
-  constexpr auto squash = make_squash();
+REEB_TABLE_MAKER std::array<int16_t, 4096> make_stretch() {
+  REEB_TABLE auto squash = make_squash();
   std::array<int16_t, 4096> table{};
   int x = -kStretchLimit;
   for (int i = 0; i < 4096; ++i) {
@@ -38,8 +40,8 @@ constexpr std::array<int16_t, 4096> make_stretch() {
 }  // namespace
 
 namespace detail {
-constexpr std::array<Probability, 2 * kSquashLimit + 1> kSquash = make_squash();
-constexpr std::array<int16_t, 4096> kStretch = make_stretch();
+REEB_TABLE std::array<Probability, 2 * kSquashLimit + 1> kSquash = make_squash();
+REEB_TABLE std::array<int16_t, 4096> kStretch = make_stretch();
 }  // namespace detail
 
 }  // namespace reeb
