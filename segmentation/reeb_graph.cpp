@@ -14,7 +14,8 @@ class Sweep {
         order_(surface.vertex_count()),
         rank_(surface.vertex_count()),
         edge_arc_(surface.edges.size(), kNone),
-        visited_(surface.edges.size(), 0) {
+        visited_(surface.edges.size(), 0),
+        link_set_(surface.vertex_count()) {
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(),
               [&](uint32_t a, uint32_t b) { return f_[a] != f_[b] ? f_[a] < f_[b] : a < b; });
@@ -32,31 +33,30 @@ class Sweep {
 
   // Connected components of the part of the link of v above or below it.
   uint32_t link_components(uint32_t v, bool upper) {
-    ring_.clear();
+    uint32_t components = 0;
     for (const uint32_t e : surface_.vertex_edges[v]) {
       const uint32_t w = surface_.opposite(e, v);
-      if (above(w, v) == upper) ring_.push_back({w, static_cast<uint32_t>(ring_.size())});
+      if (above(w, v) != upper) continue;
+      link_set_[w] = w;
+      ++components;
     }
-    uint32_t components = static_cast<uint32_t>(ring_.size());
     for (const uint32_t t : surface_.vertex_triangles[v]) {
-      uint32_t group[2] = {kNone, kNone};
+      uint32_t sets[2] = {kNone, kNone};
       int found = 0;
       for (const uint32_t w : surface_.triangles[t]) {
-        if (w != v && above(w, v) == upper) group[found++] = group_of(w);
+        if (w != v && above(w, v) == upper) sets[found++] = link_set(w);
       }
-      if (found == 2 && group[0] != group[1]) {
-        for (auto& member : ring_) {
-          if (member.group == group[1]) member.group = group[0];
-        }
+      if (found == 2 && sets[0] != sets[1]) {
+        link_set_[sets[1]] = sets[0];
         --components;
       }
     }
     return components;
   }
 
-  uint32_t group_of(uint32_t w) const {
-    return std::find_if(ring_.begin(), ring_.end(), [&](const auto& m) { return m.vertex == w; })
-        ->group;
+  uint32_t link_set(uint32_t w) {
+    for (; link_set_[w] != w; w = link_set_[w]) link_set_[w] = link_set_[link_set_[w]];
+    return w;
   }
 
   std::vector<uint32_t> arcs_below(uint32_t v) const {
@@ -136,17 +136,14 @@ class Sweep {
     }
   }
 
-  struct LinkVertex {
-    uint32_t vertex, group;
-  };
-
   const Surface& surface_;
   std::span<const double> f_;
   std::vector<uint32_t> order_, rank_;
   std::vector<uint32_t> edge_arc_;  // arc of the contour that crosses the edge, once it was reached
   std::vector<uint32_t> visited_;
   uint32_t stamp_ = 0;
-  std::vector<LinkVertex> ring_;
+  std::vector<uint32_t>
+      link_set_;  // of neighbours of the vertex that is passed, as they hang together
   ReebGraph graph_;
 };
 

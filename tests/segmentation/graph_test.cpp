@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <ctime>
 
 #include "segmentation/feature_points.h"
 #include "segmentation/graph_simplification.h"
@@ -123,6 +124,17 @@ TEST_CASE("boundaries and fans of triangles are swept as well") {
   const ReebGraph graph = sweep_reeb_graph(book, heights(book, {0, 0, 1}));
   CHECK(graph.nodes.size() == 5);  // bottom, spine, and the three pages end apart
   CHECK(graph.arcs.size() == 4);
+}
+
+TEST_CASE("a vertex of very many triangles is passed in their number's time", "[hostile]") {
+  const Surface fan = shapes::surface_of(shapes::cone(200000));
+  // Up one half of the rim and down the other, the middle in between.
+  std::vector<double> f{50000.25};
+  for (int i = 0; i < 200000; ++i) f.push_back(i < 100000 ? i : 200000 - i - 0.5);
+  const std::clock_t start = std::clock();
+  const ReebGraph graph = sweep_reeb_graph(fan, f);
+  CHECK(types(graph) == std::vector{NodeType::kMinimum, NodeType::kMaximum});
+  CHECK(std::clock() - start < 5 * CLOCKS_PER_SEC);  // 30 s where each is compared with each
 }
 
 TEST_CASE("equal values are ordered by index and end in a valid graph") {

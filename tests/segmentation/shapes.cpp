@@ -169,6 +169,17 @@ Mesh open_cylinder(int around, int along, double radius, double length) {
   return mesh;
 }
 
+Mesh cone(uint32_t triangles) {
+  Mesh mesh;
+  add_point(mesh, {0, 0, 1});
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const double a = 2 * std::numbers::pi * i / triangles;
+    add_point(mesh, {std::cos(a), std::sin(a), 0});
+    mesh.triangles.insert(mesh.triangles.end(), {0, 1 + i, 1 + (i + 1) % triangles});
+  }
+  return mesh;
+}
+
 Mesh implicit_surface(const std::function<double(const Point&)>& value, double half, int cells) {
   return TetrahedronMarcher(value, half, cells).run();
 }

@@ -28,6 +28,9 @@ Mesh torus(int around, int across, double ring_radius, double tube_radius);
 /// Side of a cylinder along z, without the discs.
 Mesh open_cylinder(int around, int along, double radius, double length);
 
+/// Side of a cone along z, of height and radius 1: triangles around one vertex, the first.
+Mesh cone(uint32_t triangles);
+
 /// The zero set of `value` (negative inside) in the box of half-width `half`, closed inside the
 /// box, as a manifold with one vertex per cell of a grid of `cells`^3 that the surface passes.
 Mesh implicit_surface(const std::function<double(const Eigen::Vector3d&)>& value, double half,
