@@ -4,6 +4,7 @@
 import argparse
 import csv
 import html
+import math
 import pathlib
 import subprocess
 import sys
@@ -30,15 +31,26 @@ def items_of_list(path):
             yield tuple(fields + ['1', '-'][len(fields) - 2:])
 
 
+def with_variants(items, count, program):
+    """The items, and of the first `count` of each class every variant."""
+    names = subprocess.run([program, '--variants'], check=True, capture_output=True, text=True).stdout.split()
+    seen, chosen = {}, []
+    for kind, file, frame, variant in items:
+        if variant == '-' and seen.setdefault(kind, 0) < count:
+            seen[kind] += 1
+            chosen += [(kind, file, frame, name) for name in names]
+    return items + chosen
+
+
 def read_distances(path, count):
-    """Matrix by method, and the seconds that signing took."""
+    """Matrix by method, the seconds that signing took, and those that comparing two signatures takes."""
     lines = path.read_text().splitlines()
     matrices = {}
     while lines[0] != 'seconds':
         rows = lines[1:count + 1]
         matrices[lines[0]] = [[float(x) for x in row.split()] for row in rows]
         lines = lines[count + 1:]
-    return matrices, [float(x) for x in lines[1].split()]
+    return matrices, [float(x) for x in lines[1].split()], float(lines[3].split()[0])
 
 
 def measure(program, items):
@@ -52,7 +64,7 @@ def measure(program, items):
 def all_among_all(matrices, items):
     """Every shape is searched for among all others."""
     kinds = [item[0] for item in items]
-    everything = range(len(items))
+    everything = range(len(items))  # rows and columns beyond are those of variants that were added
     return {method: scores.evaluate(m, kinds, everything, lambda query: [i for i in everything if i != query])
             for method, m in matrices.items()}
 
@@ -64,6 +76,47 @@ def variant_among_originals(matrices, items, variant):
     originals = [i for i, item in enumerate(items) if item[3] == '-']
     return {method: scores.evaluate(m, kinds, queries, lambda query: [i for i in originals if items[i][1:3] != items[query][1:3]])
             for method, m in matrices.items()}
+
+
+def invariance(matrices, items):
+    """For each variant, and for the other poses of a class: how far it is from what it is made from, where shapes of
+    different classes are 1 from each other in the mean, and how often that is the nearest of all, the class the right one."""
+    kinds = [item[0] for item in items]
+    originals = [i for i, item in enumerate(items) if item[3] == '-']
+    place = {items[i][1:3]: i for i in originals}
+    rows = []
+    for variant in sorted({item[3] for item in items}):
+        queries = [i for i, item in enumerate(items) if item[3] == variant and item[1:3] in place]
+        for method, m in matrices.items():
+            apart = scores.mean(m[i][j] for i in originals for j in originals if kinds[i] != kinds[j])
+            if variant == '-':
+                moved = scores.mean(m[i][j] for i in originals for j in originals if i != j and kinds[i] == kinds[j])
+                found = [scores.nearest(m, q, [i for i in originals if i != q]) for q in queries]
+                itself = math.nan
+            else:
+                moved = scores.mean(m[q][place[items[q][1:3]]] for q in queries)
+                found = [scores.nearest(m, q, originals) for q in queries]
+                itself = scores.mean(float(f == place[items[q][1:3]]) for q, f in zip(queries, found))
+            right = scores.mean(float(kinds[f] == kinds[q]) for q, f in zip(queries, found))
+            rows.append((variant if variant != '-' else 'pose', method, len(queries), moved / apart, itself, right))
+    return rows
+
+
+def print_invariance(rows):
+    print(f"\n{'':14}{'':24}{'shapes':>8}{'distance':>10}{'found, %':>10}{'class, %':>10}")
+    for variant, method, count, moved, itself, right in rows:
+        print(f'{variant:14}{method:24}{count:8}{moved:10.3f}{100 * itself:10.1f}{100 * right:10.1f}')
+
+
+def write_invariance(path, name, rows, append):
+    with open(path, 'a' if append else 'w', newline='') as out:
+        table = csv.writer(out)
+        if not append:
+            table.writerow(['set', 'variant', 'method', 'shapes', 'distance from the original, 1 = other classes',
+                            'original found first, %', 'nearest of its class, %'])
+        for variant, method, count, moved, itself, right in rows:
+            table.writerow([name, variant, method, count, f'{moved:.4f}', '' if math.isnan(itself) else f'{100 * itself:.1f}',
+                            f'{100 * right:.1f}'])
 
 
 def write_csv(path, tables, append):
@@ -105,6 +158,8 @@ def main():
     parser.add_argument('input', type=pathlib.Path, help='a folder with a folder per class, or a list: class, file[, frame[, variant]]')
     parser.add_argument('--name', help='of the set, in the table; default: that of the input')
     parser.add_argument('--program', default='build/conformance/retrieval/retrieval_distances')
+    parser.add_argument('--variants-of', type=int, default=0, metavar='N', help='adds all variants of the first N shapes of each class')
+    parser.add_argument('--invariance', metavar='CSV', help='what variants and poses change is written there')
     parser.add_argument('--variants-only', action='store_true', help='no scores of all shapes among all')
     parser.add_argument('--csv', help='scores and curves are written there')
     parser.add_argument('--append', action='store_true', help='to the rows of the CSV file that are there')
@@ -113,11 +168,14 @@ def main():
     items = list(items_of_folder(args.input) if args.input.is_dir() else items_of_list(args.input))
     if not items:
         sys.exit(f'{args.input}: no shapes; give a folder with a folder of meshes per class, or a list')
-    matrices, seconds = measure(args.program, items)
+    given = items
+    items = with_variants(items, args.variants_of, args.program)
+    matrices, seconds, comparison = measure(args.program, items)
     name = args.name or args.input.stem
     print(f'{name}: {len(items)} shapes, {len({item[0] for item in items})} classes; signed in '
-          f'{sum(seconds) / len(seconds):.2f} s each, at most {max(seconds):.2f} s')
-    tables = {name: all_among_all(matrices, items)} if not args.variants_only else {}
+          f'{sum(seconds) / len(seconds):.2f} s of processor time each, at most {max(seconds):.2f} s; one compared with 1,000 in '
+          f'{1000 * comparison:.2f} s')
+    tables = {name: all_among_all(matrices, given)} if not args.variants_only else {}
     for variant in sorted({item[3] for item in items} - {'-'}):
         tables[f'{name}, {variant}'] = variant_among_originals(matrices, items, variant)
     tables = {title: results for title, results in tables.items() if all(values for values, _ in results.values())}
@@ -125,6 +183,10 @@ def main():
         print(f'\n{title:32}' + ''.join(f'{m:>18}' for m in scores.MEASURES))
         for method, (values, _) in results.items():
             print(f'{method:32}' + ''.join(f'{100 * v:18.1f}' for v in values))
+    rows = invariance(matrices, items)
+    print_invariance(rows)
+    if args.invariance:
+        write_invariance(args.invariance, name, rows, args.append)
     if args.csv:
         write_csv(args.csv, tables, args.append)
     if args.svg:

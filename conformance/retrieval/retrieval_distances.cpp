@@ -1,13 +1,15 @@
 // Distances between all shapes of a list, by every method.
 //
 //   retrieval_distances LIST OUTPUT
+//   retrieval_distances --variants        (names them)
 //
 // LIST has a line per shape: class, file, frame (from 1) and variant ("-" or one of variants.h),
 // separated by tabs. OUTPUT gets, per method, a line with its name and a line of numbers per shape
-// of the list; then a line "seconds" and the time that each shape's signature took.
+// of the list; then a line "seconds" and the processor time that each shape's signature took; then
+// a line "comparison" and the processor time that comparing two of them took.
 #include <atomic>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -107,7 +109,20 @@ const std::vector<std::pair<const char*, Distance>>& methods() {
   return list;
 }
 
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 void write(std::ostream& out, const std::vector<Described>& shapes) {
+  const double start = thread_seconds();
+  double sum = 0;
+  for (const Described& a : shapes) {
+    for (const Described& b : shapes) sum += shape_distance(a.signature, b.signature).total;
+  }
+  const double seconds =
+      (thread_seconds() - start) / static_cast<double>(shapes.size() * shapes.size());
   for (const auto& [name, distance] : methods()) {
     out << name << "\n";
     for (const Described& a : shapes) {
@@ -117,14 +132,18 @@ void write(std::ostream& out, const std::vector<Described>& shapes) {
   }
   out << "seconds\n";
   for (const Described& a : shapes) out << (&a == &shapes[0] ? "" : " ") << a.seconds;
-  out << "\n";
+  out << "\ncomparison\n" << seconds << " " << sum << "\n";
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && argv[1] == std::string("--variants")) {
+    for (const std::string& name : conformance::variant_names()) std::cout << name << "\n";
+    return 0;
+  }
   if (argc != 3) {
-    std::cerr << "usage: retrieval_distances LIST OUTPUT\n";
+    std::cerr << "usage: retrieval_distances LIST OUTPUT, or --variants\n";
     return 2;
   }
   const std::vector<Item> items = read_list(argv[1]);
@@ -136,10 +155,9 @@ int main(int argc, char** argv) {
       failed = true;
       return;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const double start = thread_seconds();
     const retrieval::Signature found = retrieval::sign(mesh.positions, mesh.triangles).signature;
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    shapes[i].seconds = taken.count();
+    shapes[i].seconds = thread_seconds() - start;
     // As archives hold it.
     if (!from_bytes(to_bytes(found), shapes[i].signature)) failed = true;
     shapes[i].baselines = conformance::describe(mesh.positions, mesh.triangles);

@@ -37,6 +37,15 @@ def precision_recall(relevance):
     return [max(p for r, p in points if r >= step / RECALL_STEPS - 1e-9) for step in range(1, RECALL_STEPS + 1)]
 
 
+def nearest(distances, query, candidates):
+    return min((distances[query][i], i) for i in candidates)[1]
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else math.nan
+
+
 def mean_rows(rows):
     return [sum(column) / len(rows) for column in zip(*rows)]
 

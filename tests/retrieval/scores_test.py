@@ -6,6 +6,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'conformance' / 'retrieval'))
+import retrieval
 import scores
 
 
@@ -35,6 +36,17 @@ class Measures(unittest.TestCase):
         everything = range(3)
         values, _ = scores.evaluate(distances, ['a', 'a', 'b'], everything, lambda q: [i for i in everything if i != q])
         self.assertEqual(values[0], 1)
+
+    def test_variants_are_measured_against_what_they_are_made_of(self):
+        items = [('a', 'f', '1', '-'), ('a', 'g', '1', '-'), ('b', 'h', '1', '-'), ('a', 'f', '1', 'half')]
+        distances = [[0, 1, 2, 0.5], [1, 0, 4, 1], [2, 4, 0, 0.2], [0.5, 1, 0.2, 0]]
+        pose, half = retrieval.invariance({'any': distances}, items)  # classes are 3 from each other in the mean
+        self.assertEqual(pose[:3], ('pose', 'any', 3))
+        self.assertAlmostEqual(pose[3], 1 / 3)
+        self.assertAlmostEqual(pose[5], 2 / 3)  # the nearest of h is of another class
+        self.assertEqual(half[:3], ('half', 'any', 1))
+        self.assertAlmostEqual(half[3], 0.5 / 3)
+        self.assertEqual(half[4:], (0, 0))  # h is nearer than f
 
 
 if __name__ == '__main__':

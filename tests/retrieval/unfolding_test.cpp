@@ -111,6 +111,32 @@ TEST_CASE("A frustum of a cone has the modulus of its development", "[unfolding]
   }
 }
 
+TEST_CASE("A bent tube has the modulus of a torus", "[unfolding]") {
+  // On a torus of radii 3 and 1 the conformal measure around is integral d theta / (3 + cos theta)
+  // = 2 pi / sqrt(8), that along is the angle: half a turn here.
+  auto mesh = shapes::open_cylinder(96, 150, 1, 1);
+  float low = 1e9f, high = -1e9f;
+  for (size_t i = 2; i < mesh.positions.size(); i += 3) {
+    low = std::min(low, mesh.positions[i]);
+    high = std::max(high, mesh.positions[i]);
+  }
+  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+    const double turn = std::numbers::pi * (mesh.positions[i + 2] - low) / (high - low);
+    const double reach = 3 + mesh.positions[i];
+    mesh.positions[i] = static_cast<float>(reach * std::cos(turn));
+    mesh.positions[i + 2] = static_cast<float>(reach * std::sin(turn));
+  }
+  const Patch tube = patch_of(mesh);
+  Unfolding unfolding;
+  REQUIRE(unfold(tube, unfolding));
+  CHECK(unfolding.height == Approx(std::sqrt(8.0) / 2).epsilon(0.003));
+  const Rings rings = rings_of(tube);
+  for (int r = 0; r < kRings; ++r) {
+    CHECK(rings.area[r] == Approx(0).margin(0.01));
+    CHECK(rings.angle[r] < 0.06);
+  }
+}
+
 TEST_CASE("A flat disc unfolds to itself", "[unfolding]") {
   const Patch disc = patch_of(revolved(24, 12, [](double t) { return std::pair(2 * t, 0.0); }));
   const Rings rings = rings_of(disc);
