@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the commands of README.md's sections "Use it" and "Embed it" as they stand, one after another.
+"""Runs the commands of README.md's sections "Use it", "Attributes" and "Embed it" as they stand, one after another.
 
 Usage: tests/readme.py FOLDER_OF_THE_REEB_COMMAND [SECTION...]
 """
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-FOLDERS = {"Use it": None, "Embed it": ROOT}  # where they run; None: in an empty folder
+FOLDERS = {"Use it": None, "Attributes": None, "Embed it": ROOT}  # where they run; None: in an empty folder
 
 
 def commands_of(text, section):

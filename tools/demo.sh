@@ -15,5 +15,10 @@ rm -rf demo
 "$reeb" decode demo/creature.reeb -o demo/decoded/frame_%04d.obj
 "$reeb" compare demo/frames demo/decoded --tolerance 0.05
 "$reeb" picture demo/frames demo/creature.reeb -o demo/creature.png
+
+# With a texture's coordinates, normals and materials
+"$reeb" sample creature --attributes --length 8 -o demo/dressed/frame_%04d.obj
+"$reeb" encode 'demo/dressed/*.obj' -o demo/dressed.reeb
+"$reeb" picture demo/dressed.reeb --attribute usemtl -o demo/materials.png
 du -sh demo/frames demo/creature.reeb
-echo "look at demo/creature.png"
+echo "look at demo/creature.png and demo/materials.png"

@@ -13,6 +13,7 @@ struct Options {
   std::string name;
   std::string output;
   uint32_t frame_count = 100;
+  bool attributes = false;
   bool overwrite = false;
   unsigned threads = 0;
   ConsoleOptions console;
@@ -23,15 +24,19 @@ int run(const Options& o) {
   Sequence sequence;
   OutputName name;
   Status status = parse_output_name(o.output, o.frame_count, "", name);
-  if (status.ok()) status = make_sample(o.name, o.frame_count, sequence);
+  if (status.ok()) status = make_sample(o.name, o.frame_count, sequence, o.attributes);
   if (!status.ok()) {
     console.error(status.message());
     return kExitUsage;
   }
-  status = write_sequence(
-      source_of(sequence), o.output,
-      {.overwrite = o.overwrite, .threads = o.threads, .progress = console.bar("writing")});
+  std::vector<std::string> notes;
+  status = write_sequence(source_of(sequence), o.output,
+                          {.overwrite = o.overwrite,
+                           .threads = o.threads,
+                           .progress = console.bar("writing"),
+                           .notes = &notes});
   if (!status.ok()) return fail(console, status);
+  console.say_all(notes);
   console.say(o.output + ": " + counted(sequence.frame_count(), "frame") + " of " +
               counted(sequence.shots[0].connectivity.vertex_count, "vertex"));
   return kExitDone;
@@ -57,6 +62,9 @@ void add_sample_command(CLI::App& app, int& exit_code) {
   command->add_option("--length", o->frame_count, "Number of frames, 1 to 100000; default 100")
       ->check(CLI::Range(1u, 100000u).description(""))
       ->type_name("N");
+  command->add_flag("--attributes", o->attributes,
+                    "Texture coordinates, normals and materials of the creature, stretch of the "
+                    "sheet (.ply), groups and colours of the mechanism, too");
   command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);

@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "tools/io/attribute_values.h"
 #include "tools/sample/isosurface.h"
 #include "tools/sample/sample.h"
+#include "tools/sample/unwrap.h"
 
 namespace reeb::tools {
 namespace {
@@ -173,6 +175,42 @@ void append_skinned(const TriangleMesh& mesh, const std::vector<Weights>& weight
   }
 }
 
+/// What is the same in all frames: a texture that each bone's skin is rolled off to, and claws.
+struct Coat {
+  Coat(const TriangleMesh& mesh, const std::vector<Bone>& bones) {
+    std::vector<size_t> bone_of;
+    for (const auto& t : mesh.triangles) {
+      const Vec3 middle =
+          (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) * (1.0 / 3);
+      size_t nearest = 0;
+      for (size_t b = 1; b < bones.size(); ++b) {
+        if (distance_to(bones[b], middle) < distance_to(bones[nearest], middle)) nearest = b;
+      }
+      bone_of.push_back(nearest);
+      const bool foot = nearest >= kFrontLeft && (nearest - kFrontLeft) % 3 == 2;
+      claw.push_back(foot && middle.x > bones[nearest].tail.x + 0.015 ? 1 : 0);
+    }
+    std::vector<UnwrapAxis> axes;
+    for (const Bone& bone : bones) axes.push_back({bone.head, bone.tail});
+    texture = unwrap(mesh, axes, bone_of);
+  }
+
+  std::vector<float> texture;  ///< two numbers for each corner
+  std::vector<uint8_t> claw;   ///< of each triangle
+};
+
+void add_coat(const Coat& coat, const std::vector<float>& normals, Shot& shot) {
+  shot.attributes.push_back(make_attribute("vt", Semantic::kTextureCoordinate, Domain::kCorner,
+                                           ValueType::kBinary32, 2, coat.texture));
+  shot.attributes.push_back(
+      make_attribute("vn", Semantic::kNormal, Domain::kCorner, ValueType::kBinary32, 3, normals));
+  shot.attributes.back().animated = true;
+  const std::vector<int32_t> material(coat.claw.begin(), coat.claw.end());
+  shot.attributes.push_back(
+      make_attribute("usemtl", Semantic::kMaterial, Domain::kFace, ValueType::kI32, 1, material));
+  shot.attributes.back().names = {"skin", "claw"};
+}
+
 }  // namespace
 
 Sequence make_creature(uint32_t frame_count) {
@@ -189,10 +227,14 @@ Sequence make_creature(uint32_t frame_count) {
   for (const auto& t : mesh.triangles) {
     shot.connectivity.corners.insert(shot.connectivity.corners.end(), t.begin(), t.end());
   }
+  const Coat coat(mesh, bones);
+  std::vector<float> normals;
   shot.positions.reserve(size_t{frame_count} * mesh.vertices.size() * 3);
   for (uint32_t f = 0; f < frame_count; ++f) {
     append_skinned(mesh, weights, pose_at(bones, f / kFramesPerStride), shot.positions);
+    append_normals(mesh, coat.claw, shot.frame(f), normals);
   }
+  add_coat(coat, normals, shot);
   return sequence;
 }
 

@@ -1,6 +1,8 @@
+#include <array>
 #include <utility>
 #include <vector>
 
+#include "tools/io/attribute_values.h"
 #include "tools/sample/sample.h"
 #include "tools/vec3.h"
 
@@ -56,6 +58,14 @@ class Assembly {
   }
 
   const Connectivity& connectivity() const { return connectivity_; }
+  /// Part of each vertex, and of each face.
+  std::vector<size_t> parts_of_vertices() const {
+    std::vector<size_t> out;
+    for (size_t part = 0; part < part_first_.size(); ++part)
+      out.resize(part + 1 < part_first_.size() ? part_first_[part + 1] : rest_.size(), part);
+    return out;
+  }
+  const std::vector<int32_t>& parts_of_faces() const { return part_of_face_; }
   size_t part_count() const { return part_first_.size(); }
 
   void append_frame(const std::vector<Pose>& pose_of_part, std::vector<float>& out) const {
@@ -80,10 +90,12 @@ class Assembly {
   void add_face(std::initializer_list<uint32_t> corners) {
     connectivity_.face_sizes.push_back(static_cast<uint32_t>(corners.size()));
     connectivity_.corners.insert(connectivity_.corners.end(), corners);
+    part_of_face_.push_back(static_cast<int32_t>(part_first_.size() - 1));
   }
 
   std::vector<Vec3> rest_;
   std::vector<size_t> part_first_;
+  std::vector<int32_t> part_of_face_;
   Connectivity connectivity_;
 };
 
@@ -193,6 +205,30 @@ std::vector<Pose> pose_at(const Assembly& assembly, const Parts& parts, double c
   return pose;
 }
 
+/// Groups, and a colour for each.
+void paint(const Assembly& assembly, Shot& shot) {
+  struct Paint {
+    const char* name;
+    std::array<float, 3> colour;
+  };
+  // In the order of `build`; fractions of 255.
+  static constexpr std::array<Paint, 7> kPaints{{{"crank gear", {0.2f, 0.4f, 0.6f}},
+                                                 {"second gear", {0.8f, 0.4f, 0.2f}},
+                                                 {"third gear", {0.4f, 0.6f, 0.2f}},
+                                                 {"crank pin", {0.2f, 0.2f, 0.2f}},
+                                                 {"rod", {0.8f, 0.6f, 0.2f}},
+                                                 {"piston", {0.6f, 0.6f, 0.6f}},
+                                                 {"sleeve", {0.4f, 0.4f, 0.6f}}}};
+  std::vector<float> colours;
+  for (const size_t part : assembly.parts_of_vertices())
+    colours.insert(colours.end(), kPaints[part].colour.begin(), kPaints[part].colour.end());
+  shot.attributes.push_back(make_attribute("color", Semantic::kColour, Domain::kVertex,
+                                           ValueType::kBinary32, 3, colours));
+  shot.attributes.push_back(make_attribute("g", Semantic::kGroup, Domain::kFace, ValueType::kI32, 1,
+                                           assembly.parts_of_faces()));
+  for (const Paint& p : kPaints) shot.attributes.back().names.emplace_back(p.name);
+}
+
 }  // namespace
 
 Sequence make_mechanism(uint32_t frame_count) {
@@ -205,6 +241,7 @@ Sequence make_mechanism(uint32_t frame_count) {
   for (uint32_t f = 0; f < frame_count; ++f) {
     assembly.append_frame(pose_at(assembly, parts, f / kFramesPerTurn), shot.positions);
   }
+  paint(assembly, shot);
   return sequence;
 }
 

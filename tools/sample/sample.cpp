@@ -58,7 +58,7 @@ std::string figure_description() {
          kinds;
 }
 
-Status make_sample(const std::string& name, uint32_t frame_count, Sequence& out) {
+Status make_sample(const std::string& name, uint32_t frame_count, Sequence& out, bool attributes) {
   std::string kind;
   uint32_t individual = 0;
   if (const Maker make = maker(name)) {
@@ -67,6 +67,9 @@ Status make_sample(const std::string& name, uint32_t frame_count, Sequence& out)
     out = make_figure(kind, individual, frame_count);
   } else {
     return unknown_sample(name);
+  }
+  for (Shot& shot : out.shots) {
+    if (!attributes) shot.attributes.clear();
   }
   out.frame_rate = kFrameRate;
   out.metadata["title"] = "reeb sample " + name;

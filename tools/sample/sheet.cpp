@@ -1,5 +1,7 @@
+#include <utility>
 #include <vector>
 
+#include "tools/io/attribute_values.h"
 #include "tools/sample/sample.h"
 #include "tools/vec3.h"
 
@@ -112,6 +114,26 @@ Connectivity grid_of_quads() {
   return out;
 }
 
+/// How far the threads at each vertex are stretched, 0 where they have their length: the mean over
+/// its neighbours in the grid. Appended.
+void append_stretch(const std::vector<Vec3>& points, std::vector<float>& out) {
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      double sum = 0;
+      int count = 0;
+      for (const auto& [rows, columns] : {std::pair{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
+        const int r = row + rows, c = column + columns;
+        if (r < 0 || r >= kSide || c < 0 || c >= kSide) continue;
+        const Vec3 thread = points[static_cast<size_t>(r * kSide + c)] -
+                            points[static_cast<size_t>(row * kSide + column)];
+        sum += length(thread) / kSpacing - 1;
+        ++count;
+      }
+      out.push_back(static_cast<float>(sum / count));
+    }
+  }
+}
+
 }  // namespace
 
 Sequence make_sheet(uint32_t frame_count) {
@@ -120,12 +142,17 @@ Sequence make_sheet(uint32_t frame_count) {
   shot.connectivity = grid_of_quads();
   shot.frame_count = frame_count;
   Cloth cloth;
+  std::vector<float> stretch;
   for (uint32_t f = 0; f < frame_count; ++f) {
     if (f != 0) cloth.advance_frame();
     for (const Vec3& p : cloth.positions()) {
       for (const double x : {p.x, p.y, p.z}) shot.positions.push_back(static_cast<float>(x));
     }
+    append_stretch(cloth.positions(), stretch);
   }
+  shot.attributes.push_back(make_attribute("stretch", Semantic::kGeneric, Domain::kVertex,
+                                           ValueType::kBinary32, 1, stretch));
+  shot.attributes.back().animated = true;
   return sequence;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/sample/sample.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -95,7 +96,101 @@ float largest_step(const Shot& shot) {
   return largest;
 }
 
+Shot attributed(const std::string& name) {
+  Sequence sequence;
+  REQUIRE(make_sample(name, 3, sequence, true).ok());
+  CHECK(sequence.shots[0].positions == made(name, 3).shots[0].positions);
+  return sequence.shots[0];
+}
+
+Vec3 normal_of(const Shot& shot, uint32_t frame, size_t triangle) {
+  const auto at = [&](size_t corner) {
+    const float* p =
+        &shot.frame(frame)[size_t{3} * shot.connectivity.corners[3 * triangle + corner]];
+    return Vec3{p[0], p[1], p[2]};
+  };
+  return normalized(cross(at(1) - at(0), at(2) - at(0)));
+}
+
 }  // namespace
+
+TEST_CASE("samples have no attributes unless asked for") {
+  for (const char* name : {"creature", "sheet", "mechanism"})
+    CHECK(made(name, 2).shots[0].attributes.empty());
+}
+
+TEST_CASE("the creature has a texture with seams, and claws of another material") {
+  const Shot shot = attributed("creature");
+  REQUIRE(shot.attributes.size() == 3);
+  const Attribute &vt = shot.attributes[0], &vn = shot.attributes[1], &usemtl = shot.attributes[2];
+  const size_t triangles = shot.connectivity.face_sizes.size(), corners = 3 * triangles;
+  CHECK(usemtl.names == std::vector<std::string>{"skin", "claw"});
+  // Within a texture's square; at a seam one vertex has several places in it.
+  std::map<uint32_t, std::set<std::pair<float, float>>> places;
+  for (size_t c = 0; c < corners; ++c) {
+    const float u = vt.get<float>(2 * c), v = vt.get<float>(2 * c + 1);
+    CHECK((u >= 0 && u <= 1 && v >= 0 && v <= 1));
+    places[shot.connectivity.corners[c]].insert({u, v});
+  }
+  const auto seams = std::count_if(places.begin(), places.end(),
+                                   [](const auto& place) { return place.second.size() > 1; });
+  CHECK(seams > 100);
+  CHECK(seams < static_cast<std::ptrdiff_t>(places.size()) / 3);
+  // Claws have the normals of their triangles in every frame, skin those of its surroundings.
+  size_t claws = 0, turned = 0;
+  for (uint32_t f = 0; f < 3; ++f) {
+    for (size_t t = 0; t < triangles; ++t) {
+      const Vec3 own = normal_of(shot, f, t);
+      for (size_t c = 0; c < 3; ++c) {
+        const size_t at = 3 * (f * corners + 3 * t + c);
+        const Vec3 n{vn.get<float>(at), vn.get<float>(at + 1), vn.get<float>(at + 2)};
+        CHECK(dot(n, n) == Approx(1).margin(1e-5));
+        if (usemtl.get<int32_t>(t) == 1) {
+          CHECK(dot(n, own) == Approx(1).margin(1e-4));
+        } else {
+          turned += dot(n, own) < 0.9999;
+        }
+      }
+      claws += f == 0 && usemtl.get<int32_t>(t) == 1;
+    }
+  }
+  CHECK(claws > 20);
+  CHECK(claws < triangles / 10);
+  CHECK(turned > corners);
+}
+
+TEST_CASE("the sheet tells how far its threads are stretched") {
+  const Shot shot = attributed("sheet");
+  REQUIRE(shot.attributes.size() == 1);
+  const Attribute& stretch = shot.attributes[0];
+  CHECK(stretch.animated);
+  // Hung to 0.93 of its width, in waves of 0.03 m whose steps are at most 0.0085 m for 0.036: each
+  // thread across is 0.930 to 0.959 of its length, those down have theirs, and a vertex has two of
+  // each; at the border one may be missing.
+  for (size_t i = 0; i < shot.connectivity.vertex_count; ++i) {
+    CHECK(stretch.get<float>(i) > -0.0468f);
+    CHECK(stretch.get<float>(i) < -0.0136f);
+  }
+  CHECK(stretch.get<float>(0) != stretch.get<float>(size_t{2} * shot.connectivity.vertex_count));
+}
+
+TEST_CASE("each part of the mechanism is a group of one colour") {
+  const Shot shot = attributed("mechanism");
+  REQUIRE(shot.attributes.size() == 2);
+  const Attribute &colour = shot.attributes[0], &group = shot.attributes[1];
+  std::map<int32_t, std::set<std::array<float, 3>>> colours;
+  size_t corner = 0;
+  for (size_t f = 0; f < shot.connectivity.face_sizes.size(); ++f) {
+    for (uint32_t i = 0; i < shot.connectivity.face_sizes[f]; ++i, ++corner) {
+      const size_t v = size_t{3} * shot.connectivity.corners[corner];
+      colours[group.get<int32_t>(f)].insert(
+          {colour.get<float>(v), colour.get<float>(v + 1), colour.get<float>(v + 2)});
+    }
+  }
+  CHECK(colours.size() == topology(shot.connectivity).components);
+  CHECK(colours.size() == group.names.size());
+  for (const auto& [part, of_part] : colours) CHECK(of_part.size() == 1);
+}
 
 TEST_CASE("the sine of the samples") {
   for (int i = -40; i <= 40; ++i) {
