@@ -13,6 +13,7 @@ constexpr double kFirstEnergy = 2.3026, kLastEnergy = 6.5511, kEnergyWidth = 0.4
 constexpr double kMinEigenvalue = 1e-6;  // times the area; below it the eigenvector is constant
 constexpr double kMinSignature = 1e-9;
 constexpr int kSources = 16;
+constexpr double kMinReach = 0.02;  // over the root of the area
 
 // Quantiles of log(sum_i filter(lambda_i area, scale) phi_i^2 area) for every scale.
 template <typename Filter>
@@ -98,6 +99,51 @@ Weighted straightness(const Surface& surface, const Eigen::VectorXd& mass) {
     source = farthest(nearest);
   }
   return values;
+}
+
+Weighted curvatures(const Surface& surface, const segmentation::Laplacian& laplacian,
+                    const Point& centre, double unit) {
+  Eigen::MatrixX3d positions(surface.vertex_count(), 3);
+  for (uint32_t v = 0; v < surface.vertex_count(); ++v) positions.row(v) = surface.points[v];
+  const Eigen::MatrixX3d bend = laplacian.stiffness * positions;
+  std::vector<Point> normals(surface.vertex_count(), Point::Zero());
+  double volume = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Point& p = surface.points[a];
+    const Point normal = (surface.points[b] - p).cross(surface.points[c] - p);
+    for (const uint32_t v : {a, b, c}) normals[v] += normal;
+    volume += normal.dot(p - centre);
+  }
+  Weighted values;
+  for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
+    // bend is 2 H n times the area of the vertex (Meyer and others, see laplacian.h).
+    const double curvature = bend.row(v).norm() / (2 * laplacian.mass[v]);
+    const bool outwards = bend.row(v).dot(normals[v]) * volume >= 0;
+    values.emplace_back(std::asinh((outwards ? curvature : -curvature) * unit), laplacian.mass[v]);
+  }
+  return values;
+}
+
+Weighted reaches(const Surface& surface, const Eigen::VectorXd& mass, const Point& centre,
+                 double unit) {
+  Weighted values;
+  for (uint32_t v = 0; v < surface.vertex_count(); ++v)
+    values.emplace_back(std::log(std::max((surface.points[v] - centre).norm() / unit, kMinReach)),
+                        mass[v]);
+  return values;
+}
+
+Point area_centre(std::span<const Surface> surfaces) {
+  Point sum = Point::Zero();
+  double area = 0;
+  for (const Surface& surface : surfaces) {
+    for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
+      const double weight = triangle_area(surface, t);
+      for (const uint32_t v : surface.triangles[t]) sum += weight / 3 * surface.points[v];
+      area += weight;
+    }
+  }
+  return area > 0 ? Point(sum / area) : sum;
 }
 
 }  // namespace reeb::retrieval

@@ -7,6 +7,7 @@
 
 #include "retrieval/patch.h"
 #include "segmentation/eigenpairs.h"
+#include "segmentation/laplacian.h"
 
 namespace reeb::retrieval {
 
@@ -38,5 +39,17 @@ std::vector<double> wave_quantiles(std::span<const PieceSpectrum> pieces, double
 /// Distances in space over distances along the surface (its edges), between vertices far apart from
 /// each other and all vertices, weighted by area and by the latter distance.
 Weighted straightness(const Surface& surface, const Eigen::VectorXd& mass);
+
+/// asinh of the mean curvature times `unit`, a length, weighted by area; 1 / radius on a sphere.
+/// Positive where the surface is convex as seen from outside, that is, from where its triangles
+/// turn to the left on the whole about `centre`.
+Weighted curvatures(const Surface& surface, const segmentation::Laplacian& laplacian,
+                    const Point& centre, double unit);
+
+/// Logarithm of the distance to `centre` over `unit`, weighted by area.
+Weighted reaches(const Surface& surface, const Eigen::VectorXd& mass, const Point& centre,
+                 double unit);
+
+Point area_centre(std::span<const Surface> surfaces);
 
 }  // namespace reeb::retrieval

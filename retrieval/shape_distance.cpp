@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "retrieval/assignment.h"
 
@@ -18,6 +19,7 @@ constexpr double kAdjacency = 0.1;
 // of them users see the parts.
 constexpr double kTypicalCharts = 0.73, kTypicalHeat = 0.17, kTypicalWave = 0.22;
 constexpr double kTypicalThickness = 0.23, kTypicalStraightness = 0.066;
+constexpr double kTypicalCurvature = 0.83, kTypicalReach = 0.18;
 
 constexpr double kRounding = 0.01;  // in such units: what the bytes of a signature round off
 
@@ -89,6 +91,12 @@ double kept_neighbours(const Signature& a, const Signature& b, const std::vector
   return static_cast<double>(kept) / static_cast<double>(std::max(of_a.size(), of_b.size()));
 }
 
+double geometric_mean(std::initializer_list<double> parts) {
+  double product = 1;
+  for (const double part : parts) product *= part + kRounding;
+  return std::max(0.0, std::pow(product, 1.0 / static_cast<double>(parts.size())) - kRounding);
+}
+
 }  // namespace
 
 double chart_distance(const ChartSignature& a, const ChartSignature& b) {
@@ -127,13 +135,12 @@ ShapeDistance shape_distance(const Signature& a, const Signature& b) {
   const double thickness = shape_difference(a.thickness, b.thickness) / kTypicalThickness;
   const double straightness =
       mean_difference(a.straightness, b.straightness) / kTypicalStraightness;
-  double product = 1;
-  for (const double part : {charts, heat, wave, thickness, straightness})
-    product *= part + kRounding;
+  const double curvature = mean_difference(a.curvature, b.curvature) / kTypicalCurvature;
+  const double reach = mean_difference(a.reach, b.reach) / kTypicalReach;
   return {.charts = charts,
           .spectrum = 0.5 * (heat + wave),
-          .body = 0.5 * (thickness + straightness),
-          .total = std::max(0.0, std::pow(product, 1.0 / 5) - kRounding)};
+          .body = 0.25 * (thickness + straightness + curvature + reach),
+          .total = geometric_mean({charts, heat, wave, thickness, straightness, curvature, reach})};
 }
 
 }  // namespace reeb::retrieval

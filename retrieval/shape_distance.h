@@ -26,9 +26,9 @@ ChartMatch match_charts(const Signature& a, const Signature& b);
 struct ShapeDistance {
   double charts = 0;    ///< match_charts
   double spectrum = 0;  ///< heat and wave kernel signatures
-  double body = 0;      ///< local thickness, whatever the size, and straightness
-  double total = 0;     ///< geometric mean of the five parts, the latter two being two each: what
-                        ///< one part tells for sure is not lost among the doubts of the others
+  double body = 0;      ///< local thickness, whatever the size, straightness, curvature, reach
+  double total = 0;     ///< geometric mean of the seven parts, spectrum being two and body four:
+                        ///< what one part tells for sure is not lost among the doubts of others
 };
 
 /// Neither signature is empty.

@@ -31,6 +31,10 @@ std::vector<float> to_floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
+void append(const Weighted& values, Weighted& all) {
+  all.insert(all.end(), values.begin(), values.end());
+}
+
 class Signer {
  public:
   Signer(std::span<const float> positions, std::span<const uint32_t> triangles)
@@ -87,6 +91,7 @@ class Signer {
     }
     if (!(area > 0)) return;
     area_ = area;
+    centre_ = area_centre(smooth);
     for (const Surface& surface : smooth) sign_piece(surface);
   }
 
@@ -112,8 +117,10 @@ class Signer {
       const double relative = thickness[v] / std::sqrt(area_);
       thickness_.emplace_back(std::log(std::max(relative, kMinThickness)), laplacian.mass[v]);
     }
-    const Weighted straight = straightness(surface, laplacian.mass);
-    straightness_.insert(straightness_.end(), straight.begin(), straight.end());
+    const double unit = std::sqrt(area_);
+    append(straightness(surface, laplacian.mass), straightness_);
+    append(curvatures(surface, laplacian, centre_, unit), curvature_);
+    append(reaches(surface, laplacian.mass, centre_, unit), reach_);
     spectra_.push_back({std::move(pairs), laplacian.mass});
     add_charts(surface, parts.labels, thickness);
   }
@@ -163,6 +170,8 @@ class Signer {
     s.heat = to_floats(heat_quantiles(spectra_, area_));
     s.wave = to_floats(wave_quantiles(spectra_, area_));
     s.straightness = to_floats(quantiles(std::move(straightness_), kBodyValues));
+    s.curvature = to_floats(quantiles(std::move(curvature_), kBodyValues));
+    s.reach = to_floats(quantiles(std::move(reach_), kBodyValues));
     const auto middle = static_cast<float>(quantiles(thickness_, 1)[0]);
     s.thickness = to_floats(quantiles(std::move(thickness_), kBodyValues));
     for (ChartSignature& chart : charts_) {
@@ -193,7 +202,8 @@ class Signer {
   std::vector<double> areas_;
   double area_ = 0;
   std::vector<PieceSpectrum> spectra_;
-  Weighted thickness_, straightness_;
+  Point centre_ = Point::Zero();
+  Weighted thickness_, straightness_, curvature_, reach_;
   std::vector<ChartSignature> charts_;
   std::vector<std::vector<size_t>> neighbours_;
   Signed result_;

@@ -32,6 +32,8 @@ struct Signature {
   std::vector<float> heat, wave;       ///< kSpectralValues each: heat_quantiles, wave_quantiles
   std::vector<float> thickness;  ///< kBodyValues quantiles of its logarithm, unit: root of the area
   std::vector<float> straightness;  ///< kBodyValues quantiles
+  std::vector<float> curvature;     ///< kBodyValues quantiles, unit: root of the area
+  std::vector<float> reach;         ///< kBodyValues quantiles, unit: root of the area
 
   /// A mesh without area has none.
   bool empty() const { return heat.empty(); }

@@ -6,7 +6,7 @@
 namespace reeb::retrieval {
 namespace {
 
-constexpr uint8_t kVersion = 1;
+constexpr uint8_t kVersion = 2;
 constexpr float kStep = 1.0f / 1024;
 
 // The bytes of a signature described once; Writer and Reader visit it.
@@ -29,6 +29,8 @@ void visit_body(Visitor& v, Values& s) {
   v.numbers(s.wave, kSpectralValues);
   v.numbers(s.thickness, kBodyValues);
   v.numbers(s.straightness, kBodyValues);
+  v.numbers(s.curvature, kBodyValues);
+  v.numbers(s.reach, kBodyValues);
 }
 
 class Writer {

@@ -179,7 +179,7 @@ void add_search_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--by", o->by,
                    "What to compare: all (default); charts, the Reeb charts alone; spectrum, heat "
-                   "and waves on the surface; body, thickness and straightness")
+                   "and waves on the surface; body, thickness, straightness, curvature and reach")
       ->check(CLI::IsMember({"all", "charts", "spectrum", "body"}).description(""))
       ->type_name("PART");
   command->add_flag("--json", o->json, "Results as JSON, with all distances");

@@ -1,8 +1,10 @@
 #include "retrieval/descriptors.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "retrieval/thickness.h"
 #include "segmentation/laplacian.h"
@@ -57,6 +59,41 @@ TEST_CASE("Thickness of a ball and of tubes is their radius", "[descriptors]") {
   // Nothing is opposite of a flat sheet.
   for (const double t : local_thickness(shapes::surface_of(shapes::square(10, 1)), 0.3))
     CHECK(t == 0.3);
+}
+
+TEST_CASE("Curvature is that of spheres and tori, whichever way their triangles turn",
+          "[descriptors]") {
+  const auto range = [](const shapes::Mesh& mesh, const Point& centre) {
+    const Surface surface = shapes::surface_of(mesh);
+    const auto found = curvatures(surface, build_laplacian(surface), centre, 3);
+    const auto [low, high] = std::minmax_element(found.begin(), found.end());
+    return std::pair(std::sinh(low->first) / 3, std::sinh(high->first) / 3);
+  };
+  shapes::Mesh ball = shapes::ellipsoid(4, 2, 2, 2);
+  for (int turn = 0; turn < 2; ++turn) {
+    const auto [low, high] = range(ball, {0.5, 0, 0});
+    CHECK(low == Approx(0.5).epsilon(0.03));
+    CHECK(high == Approx(0.5).epsilon(0.03));
+    std::reverse(ball.triangles.begin(), ball.triangles.end());
+  }
+  // (R + 2 r cos) / (2 r (R + r cos)): concave at the inner equator.
+  const auto [inner, outer] = range(shapes::torus(200, 130, 3, 2), {0, 0, 0});
+  CHECK(inner == Approx(-0.25).epsilon(0.02));
+  CHECK(outer == Approx(0.35).epsilon(0.02));
+}
+
+TEST_CASE("A sphere reaches as far everywhere from the centre of its area", "[descriptors]") {
+  shapes::Mesh ball = shapes::ellipsoid(3, 2, 2, 2);
+  for (size_t i = 0; i < ball.positions.size(); i += 3) ball.positions[i] += 7;
+  const std::vector<Surface> surfaces{shapes::surface_of(ball)};
+  const Point centre = area_centre(surfaces);
+  CHECK((centre - Point(7, 0, 0)).norm() < 1e-5);
+  for (const auto& [reach, area] :
+       reaches(surfaces[0], build_laplacian(surfaces[0]).mass, centre, 4))
+    CHECK(reach == Approx(std::log(0.5)).margin(1e-5));
+  CHECK(
+      reaches(surfaces[0], build_laplacian(surfaces[0]).mass, surfaces[0].points[0], 4)[0].first ==
+      Approx(std::log(0.02)));  // no logarithm of 0
 }
 
 TEST_CASE("A rod is straight, and a ring is not", "[descriptors]") {

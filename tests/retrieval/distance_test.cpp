@@ -91,6 +91,8 @@ TEST_CASE("What one part tells for sure counts more than the doubts of the other
   a.wave.assign(kSpectralValues, 1);
   a.thickness.assign(kBodyValues, 1);
   a.straightness.assign(kBodyValues, 0.5f);
+  a.curvature.assign(kBodyValues, 2);
+  a.reach.assign(kBodyValues, -1);
   CHECK(shape_distance(a, a).total == Approx(0).margin(1e-12));
   // Twice what is typical in three parts; a thickness that is another everywhere is another size.
   Signature b = a;
@@ -100,10 +102,13 @@ TEST_CASE("What one part tells for sure counts more than the doubts of the other
   for (float& v : b.straightness) v += 0.132f;
   const ShapeDistance d = shape_distance(a, b);
   CHECK(d.spectrum == Approx(2));
-  CHECK(d.body == Approx(1));
+  CHECK(d.body == Approx(0.5));
   CHECK(d.charts == 0);
-  CHECK(d.total == Approx(std::pow(0.01 * 0.01 * 2.01 * 2.01 * 2.01, 0.2) - 0.01));
+  CHECK(d.total == Approx(std::pow(std::pow(0.01, 4) * std::pow(2.01, 3), 1.0 / 7) - 0.01));
   CHECK(shape_distance(b, a).total == Approx(d.total));
+  for (float& v : b.curvature) v -= 1.66f;
+  for (float& v : b.reach) v += 0.36f;
+  CHECK(shape_distance(a, b).body == Approx(0.25 * (0 + 2 + 2 + 2)));
 }
 
 TEST_CASE("Of charts alike the one beside the matched neighbour is taken", "[distance]") {

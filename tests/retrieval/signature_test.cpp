@@ -210,6 +210,9 @@ TEST_CASE("Signatures come back from their bytes", "[signature]") {
   CHECK(to_bytes(back) == bytes);
   REQUIRE(back.charts.size() == signature.charts.size());
   CHECK(back.charts[0].neighbours == signature.charts[0].neighbours);
+  CHECK(back.curvature.size() == size_t{kBodyValues});
+  for (size_t i = 0; i < back.reach.size(); ++i)
+    CHECK(back.reach[i] == Approx(signature.reach[i]).margin(0.0005));
   for (size_t i = 0; i < back.wave.size(); ++i)
     CHECK(back.wave[i] == Approx(signature.wave[i]).margin(0.0005));
   CHECK(shape_distance(signature, back).total < 0.01);

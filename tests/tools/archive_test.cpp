@@ -14,6 +14,8 @@ retrieval::Signature signature_of(float value) {
   s.wave.assign(retrieval::kSpectralValues, value);
   s.thickness.assign(retrieval::kBodyValues, value);
   s.straightness.assign(retrieval::kBodyValues, 0.5f);
+  s.curvature.assign(retrieval::kBodyValues, value);
+  s.reach.assign(retrieval::kBodyValues, value);
   return s;
 }
 
@@ -158,9 +160,32 @@ TEST_CASE("index and search find a shape in another pose") {
   const CommandResult kept = run_reeb({"search", archive, folder / "query_2.off", "-k", "1"});
   CHECK(kept.out.find("kept.reeb") != std::string::npos);
   folder.write("shapes/broken.off", "OFF\n1 1 0\n0 0 0\n3 0 0 0\n");
+  std::filesystem::copy_file(folder / "query_1.off", folder / "shapes/one_more.off");
   const CommandResult broken = run_reeb({"index", folder / "shapes", "-o", archive});
   CHECK(broken.exit_code == 1);
   CHECK(broken.err.find("broken.off") != std::string::npos);
+  std::filesystem::remove(folder / "shapes/broken.off");
+  const CommandResult after = run_reeb({"index", folder / "shapes", "-o", archive});
+  CHECK(after.exit_code == 0);
+  CHECK(after.err.find("0 signed now, 5 unchanged") != std::string::npos);
+}
+
+TEST_CASE("a file that keeps its signature is indexed without being decoded") {
+  const TempFolder folder;
+  REQUIRE(run_reeb({"sample", "octopus-1", "--length", "2", "-o", folder / "a_%d.off"}).exit_code ==
+          0);
+  const std::string kept = folder / "kept.reeb", archive = folder / "kept.reebi";
+  REQUIRE(run_reeb({"encode", folder / "a_1.off", folder / "a_2.off", "--signature", "-o", kept})
+              .exit_code == 0);
+  // Frames are damaged, and nothing else.
+  std::string bytes = read_text(kept);
+  bytes[bytes.find("GRUP") + 8] ^= 0x55;
+  folder.write("kept.reeb", bytes);
+  CHECK(run_reeb({"decode", kept, "-o", folder / "back.pc2"}).exit_code == 1);
+  CHECK(run_reeb({"index", kept, "-o", archive}).exit_code == 0);
+  const CommandResult found = run_reeb({"search", archive, folder / "a_2.off", "--json"});
+  REQUIRE(found.exit_code == 0);
+  CHECK(nlohmann::json::parse(found.out)["results"][0]["score"].get<double>() > 90);
 }
 
 }  // namespace reeb::tools
