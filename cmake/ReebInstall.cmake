@@ -57,7 +57,7 @@ endif()
 if(REEB_BUILD_ENCODER)
   set_target_properties(reeb_encoder PROPERTIES EXPORT_NAME encoder)
   reeb_install_component(encoder reeb_entropy reeb_bitstream reeb_common reeb_decoder reeb_segmentation reeb_encoder)
-  foreach(header bitstream/attribute_kinds.h bitstream/profile.h bitstream/status.h codec/common/base/attributes.h codec/common/base/sequence.h codec/enc/encoder.h)
+  foreach(header bitstream/attribute_kinds.h bitstream/profile.h bitstream/status.h codec/common/base/attributes.h codec/common/base/sequence.h codec/common/base/stop.h codec/enc/encoder.h)
     get_filename_component(folder ${header} DIRECTORY)
     install(
       FILES ${header}
@@ -89,7 +89,7 @@ endif()
 if(REEB_BUILD_BINDINGS AND REEB_BUILD_ENCODER)
   export(
     TARGETS reeb_rules reeb_entropy reeb_bitstream reeb_common reeb_decoder reeb_static reeb_segmentation reeb_retrieval
-            reeb_encoder reeb_tools reeb_commands
+            reeb_encoder reeb_tools reeb_commands reeb_rd
     NAMESPACE reeb::
     FILE ${PROJECT_BINARY_DIR}/reeb-build-targets.cmake)
 endif()

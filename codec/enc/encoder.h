@@ -9,6 +9,7 @@
 #include "bitstream/profile.h"
 #include "bitstream/status.h"
 #include "codec/common/base/sequence.h"
+#include "codec/common/base/stop.h"
 
 namespace reeb {
 
@@ -48,6 +49,7 @@ struct EncodeOptions {
   unsigned threads = 0;  ///< 0 = all cores; the bytes do not depend on it
   /// Called with the done part in [0,1]; return false to cancel. May be empty.
   std::function<bool(double)> progress;
+  StopToken stop = {};  ///< a request of any thread ends the encoding with kCancelled, soon
 };
 
 /// Figures of a finished encoding, of the decoded result against the input.

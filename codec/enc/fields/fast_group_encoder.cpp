@@ -42,7 +42,7 @@ GroupEncoder::Planes FastGroupEncoder::encode_coefficients(const SurfaceContext&
   const auto code = [&](LaneFieldEncoder& encoder) {
     StopRule stop(signal_.frames, kCoefficientLambda);
     bool more = true;
-    for (uint32_t k = 0, lanes = 0; k < most && more; k += lanes) {
+    for (uint32_t k = 0, lanes = 0; k < most && more && !settings.stop.requested(); k += lanes) {
       lanes = lanes_of_block(k, most);
       std::vector<std::vector<float>> targets;
       std::vector<double> energy;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/common/base/stop.h"
 #include "codec/common/fields/group_state.h"
 #include "codec/common/synthesis/synthesis.h"
 #include "codec/enc/fields/correction_encoder.h"
@@ -25,6 +26,7 @@ struct GroupSettings {
   /// Sends exactly so many components; nothing = as many as pay. Without a meaning in the thesis
   /// profile.
   std::optional<uint32_t> components;
+  StopToken stop = {};  ///< where it is requested, what comes out is of no use
 };
 
 /// One encoding of a group.

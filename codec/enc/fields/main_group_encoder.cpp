@@ -40,7 +40,7 @@ GroupEncoder::Planes MainGroupEncoder::encode_field(const SurfaceContext& surfac
   std::vector<size_t> ends{0};
   const uint32_t most = most_components(settings);
   bool more = true;
-  for (uint32_t k = 0; k < most && more; ++k) {
+  for (uint32_t k = 0; k < most && more && !settings.stop.requested(); ++k) {
     std::vector<float> target = component_targets(surface, k, out.q);
     const double energy = energy_of(target);
     if (motion != nullptr) subtract(model.predict(k), target);

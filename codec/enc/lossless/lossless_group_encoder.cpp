@@ -30,6 +30,7 @@ LosslessGroup code_group(const SurfaceContext& surface, const ExactFrames& frame
   std::vector<float> frame;
   FrameGrids wanted;
   for (uint32_t t = 0; t < frames.frame_count(); ++t) {
+    if (method.stop.requested()) break;
     if (repeats.code(bits, frames.distance(t)) > 0) {
       coder.jump(frames[t]);
       continue;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/common/base/stop.h"
 #include "codec/common/synthesis/exact_frames.h"
 #include "codec/enc/reference/surface_context.h"
 
@@ -20,8 +21,9 @@ struct LosslessGroup {
 };
 
 struct LosslessMethod {
-  bool quick = false;  ///< trades rate for speed of both directions
-  double step = 0;     ///< nearly all values are multiples of it; 0 where nothing is known
+  bool quick = false;   ///< trades rate for speed of both directions
+  double step = 0;      ///< nearly all values are multiples of it; 0 where nothing is known
+  StopToken stop = {};  ///< where it is requested, the group is of no use
 };
 
 /// Encodes at least one frame, [row of the surface graph][xyz], all values finite.

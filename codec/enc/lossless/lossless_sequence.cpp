@@ -30,7 +30,7 @@ Status encode_lossless(const Sequence& sequence, const EncodeOptions& options,
   StreamEncoder encoder({.group_length = options.group_length,
                          .reorder = options.reorder,
                          .face_order = lossless.face_order,
-                         .method = {options.effort <= kQuickEffort, lossless.step},
+                         .method = {options.effort <= kQuickEffort, lossless.step, options.stop},
                          .threads = options.threads},
                         [&](std::span<const uint8_t> part) {
                           bytes.insert(bytes.end(), part.begin(), part.end());

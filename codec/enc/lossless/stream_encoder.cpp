@@ -110,6 +110,7 @@ Status StreamEncoder::Impl::close_group() {
 Status StreamEncoder::Impl::write_oldest() {
   const LosslessGroup group = queue.front().get();
   queue.pop_front();
+  if (options.method.stop.requested()) return Status::cancelled();
   GroupHeader header;
   header.first_frame = frames_done;
   header.frame_count = group.frame_count;

@@ -27,6 +27,7 @@ ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOpt
       first_frame_(first_frame),
       reorder_(options.reorder),
       profile_(options.profile),
+      stop_(options.stop),
       bound_(options.target == Target::kMaxError ? options.target_value : 0),
       longest_side_(bounds_of(shot.frame(0)).side) {
   const GroupPlan groups = plan_groups(shot, options);
@@ -99,7 +100,7 @@ void ShotEncoder::fit_motion(uint32_t wanted) {
 
 GroupSettings ShotEncoder::group_settings(const ShotSettings& settings, double q,
                                           size_t group) const {
-  GroupSettings out = {.q = q, .weak_prior = settings.weak_prior, .components = {}};
+  GroupSettings out = {.q = q, .weak_prior = settings.weak_prior, .components = {}, .stop = stop_};
   if (!settings.components.empty()) out.components = settings.components[group];
   return out;
 }
@@ -125,6 +126,7 @@ Status ShotEncoder::encode(const ShotSettings& settings, double q, CodedShot& ou
     const MotionFit* motion = motion_.fits.empty() ? nullptr : motion_.fits[i].get();
     out.groups.push_back(
         groups_[i].encoder->encode(*surface_, group_settings(settings, q, i), motion, run));
+    if (stop_.requested()) return Status::cancelled();
     if (bound_ > 0) correct(groups_[i], out.groups.back());
   }
   return {};

@@ -102,6 +102,7 @@ class ShotEncoder {
   uint32_t first_frame_;
   bool reorder_;
   Profile profile_;
+  StopToken stop_;
   double bound_;  ///< on the error of every coordinate, world units; 0 = none
   uint32_t open_groups_ = 0;
   std::vector<Group> groups_;
