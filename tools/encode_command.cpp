@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "bitstream/container.h"
 #include "codec/dec/decoder.h"
 #include "codec/enc/encoder.h"
 #include "tools/archive/shape_source.h"
@@ -105,47 +104,6 @@ Status count_rounding(const Sequence& sequence, const ReadReport& read,
   stats.kg = comparison.overall.kg;
   stats.rmse = comparison.overall.rmse;
   stats.max_error = comparison.overall.max_error;
-  return {};
-}
-
-/// What the file is to say of its target, as that was asked for.
-EncodingReport aim_of(const EncodeOptions& aim) {
-  EncodingReport out;
-  switch (aim.target) {
-    case Target::kKg:
-      out.target = "kg";
-      break;
-    case Target::kMaxError:
-      out.target = "max-error";
-      break;
-    case Target::kBpvf:
-      out.target = "bpvf";
-      break;
-    case Target::kSize:
-      out.target = "size";
-      break;
-    case Target::kLossless:
-      out.target = "lossless";
-      break;
-  }
-  if (aim.target != Target::kLossless) out.wanted = aim.target_value;
-  return out;
-}
-
-/// Notes the measured errors in the file, whose sizes are then `stats`.
-Status keep_report(const Sequence& sequence, EncodingReport report, std::vector<uint8_t>& bytes,
-                   EncodeStats& stats) {
-  report.kg = stats.kg;
-  report.rmse = stats.rmse;
-  report.max_error = stats.max_error;
-  if (Status s = fill_report(report, bytes); !s.ok()) return s;
-  stats.bytes = bytes.size();
-  stats.bpvf = 8 * static_cast<double>(bytes.size()) / static_cast<double>(vertex_frames(sequence));
-  stats.sections.clear();
-  ContainerReader container;
-  if (!container.parse(bytes, Limits{}).ok()) return {};
-  for (const auto& [name, size] : container.sections)
-    stats.sections.push_back({name, 8 * static_cast<double>(size)});
   return {};
 }
 
@@ -341,7 +299,8 @@ int run(Options& o) {
   if (status.ok() && read.largest_remainder > 0 && order_kept) {
     status = count_rounding(sequence, read, bytes, stats);
   }
-  if (status.ok() && !o.no_report) status = keep_report(sequence, aim, bytes, stats);
+  if (status.ok() && !o.no_report)
+    status = keep_report(aim, static_cast<double>(vertex_frames(sequence)), bytes, stats);
   if (status.ok()) status = write_stream(o, bytes, files);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);

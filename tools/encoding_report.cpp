@@ -83,4 +83,43 @@ Status fill_report(const EncodingReport& report, std::vector<uint8_t>& file) {
   return status;
 }
 
+EncodingReport aim_of(const EncodeOptions& aim) {
+  EncodingReport out;
+  switch (aim.target) {
+    case Target::kKg:
+      out.target = "kg";
+      break;
+    case Target::kMaxError:
+      out.target = "max-error";
+      break;
+    case Target::kBpvf:
+      out.target = "bpvf";
+      break;
+    case Target::kSize:
+      out.target = "size";
+      break;
+    case Target::kLossless:
+      out.target = "lossless";
+      break;
+  }
+  if (aim.target != Target::kLossless) out.wanted = aim.target_value;
+  return out;
+}
+
+Status keep_report(EncodingReport report, double vertex_frames, std::vector<uint8_t>& bytes,
+                   EncodeStats& stats) {
+  report.kg = stats.kg;
+  report.rmse = stats.rmse;
+  report.max_error = stats.max_error;
+  if (Status s = fill_report(report, bytes); !s.ok()) return s;
+  stats.bytes = bytes.size();
+  stats.bpvf = 8 * static_cast<double>(bytes.size()) / vertex_frames;
+  stats.sections.clear();
+  ContainerReader container;
+  if (!container.parse(bytes, Limits{}).ok()) return {};
+  for (const auto& [name, size] : container.sections)
+    stats.sections.push_back({name, 8 * static_cast<double>(size)});
+  return {};
+}
+
 }  // namespace reeb::tools

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bitstream/status.h"
+#include "codec/enc/encoder.h"
 
 namespace reeb::tools {
 
@@ -31,5 +32,12 @@ void reserve_report(const EncodingReport& aim, std::map<std::string, std::string
 
 /// Puts the report where room was kept for it. The file does not grow.
 Status fill_report(const EncodingReport& report, std::vector<uint8_t>& file);
+
+/// What the file is to say of its target, as that was asked for.
+EncodingReport aim_of(const EncodeOptions& aim);
+
+/// Fills the report with the measured errors in `stats`, whose sizes become those of the file.
+Status keep_report(EncodingReport report, double vertex_frames, std::vector<uint8_t>& bytes,
+                   EncodeStats& stats);
 
 }  // namespace reeb::tools

@@ -286,6 +286,11 @@ class Sequence:
         rate = "" if self.fps is None else f", {self.fps:g} frames per second"
         return f"<reeb.Sequence: {self._count:,} frames of {vertices} vertices{rate}, {self.file_bytes:,} bytes>"
 
+    def _repr_png_(self) -> Optional[bytes]:
+        """What a notebook shows."""
+        from ._picture import picture
+        return picture(self)
+
     # -- within the package
 
     def _only_shot(self, what: str) -> Shot:

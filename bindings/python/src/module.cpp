@@ -9,6 +9,8 @@ NB_MODULE(_core, module) {
   module.attr("version") = reeb_version_string();
   module.attr("format_version") = reeb_format_version();
   reeb_python::add_errors(module);
+  reeb_python::add_analysis(module);
   reeb_python::add_reading(module);
   reeb_python::add_render_mesh(module);
+  reeb_python::add_writing(module);
 }

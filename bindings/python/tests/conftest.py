@@ -1,10 +1,12 @@
+import os
 import pathlib
 
 import pytest
 
 import reeb
 
-STREAMS = pathlib.Path(__file__).resolve().parents[3] / "conformance" / "streams"
+# Where the tests are copied away from the sources, REEB_STREAMS tells where the streams are.
+STREAMS = pathlib.Path(os.environ.get("REEB_STREAMS", pathlib.Path(__file__).resolve().parents[3] / "conformance/streams"))
 
 
 def stream(name, kind="core"):
