@@ -171,9 +171,11 @@ void add_index_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("");
   command
-      ->add_option("-o,--output", o->output,
-                   "The archive: .json, or .reebi, which is smaller. One that is there already "
-                   "is added to; files that have not changed are not signed again")
+      ->add_option(
+          "-o,--output", o->output,
+          "The archive: .json, or .reebi, which is smaller. One that is there already "
+          "is added to; files that have not changed are not signed again. It is kept up to "
+          "date every 20 seconds: what is stopped goes on from there when run again")
       ->required()
       ->type_name("FILE");
   command

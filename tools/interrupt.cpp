@@ -27,7 +27,7 @@ void remove_output_on_interrupt() {
     int received = 0;
     sigwait(&signals, &received);
     OutputSet::abandon_all();
-    std::fprintf(stderr, "\nreeb: %s; nothing was written\n",
+    std::fprintf(stderr, "\nreeb: %s; nothing unfinished is left\n",
                  received == SIGINT ? "interrupted" : "terminated");
     _exit(128 + received);
   }).detach();
