@@ -40,7 +40,7 @@ GroupEncoder::Planes FastGroupEncoder::encode_coefficients(const SurfaceContext&
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
   const auto code = [&](LaneFieldEncoder& encoder) {
-    StopRule stop(signal_.frames, kCoefficientLambda);
+    StopRule stop(signal_.vertices(), signal_.frames, kCoefficientLambda);
     bool more = true;
     for (uint32_t k = 0, lanes = 0; k < most && more && !settings.stop.requested(); k += lanes) {
       lanes = lanes_of_block(k, most);

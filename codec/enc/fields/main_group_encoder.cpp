@@ -34,7 +34,7 @@ GroupEncoder::Planes MainGroupEncoder::encode_field(const SurfaceContext& surfac
                                                     const MotionFit* motion, Field& field,
                                                     CodedGroup& out) {
   FieldEncoder encoder(field, surface.surface.graph, kCoefficientLambda, kMassExponent);
-  StopRule stop(signal_.frames, kCoefficientLambda);
+  StopRule stop(signal_.vertices(), signal_.frames, kCoefficientLambda);
   MotionModel model;
   if (motion != nullptr) model = motion->quantize(out.axis_step, transform_.size());
   std::vector<size_t> ends{0};

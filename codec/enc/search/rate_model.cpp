@@ -38,7 +38,7 @@ double dead_zone(double scale, double step, double price) {
 
 RateModel::RateModel(const SurfaceContext& surface, KarhunenLoeve& transform, uint32_t frames,
                      const RateModelOptions& options)
-    : transform_(transform), frames_(frames), options_(options) {
+    : transform_(transform), vertices_(surface.rows()), frames_(frames), options_(options) {
   sort_samples(surface);
 }
 
@@ -110,19 +110,18 @@ RatePoint RateModel::component(uint32_t k, double q) {
 
 RatePoint RateModel::at(double q, std::optional<uint32_t> held) {
   const uint32_t most = std::min(held.value_or(transform_.size()), transform_.size());
-  StopRule stop(frames_, options_.lambda);
+  StopRule stop(vertices_, frames_, options_.lambda);
   std::vector<RatePoint> sums{{0, 0}};
   double unsent = transform_.energies().sum();
-  RatePoint sum;
+  double distortion = 0;
   bool more = true;
   for (uint32_t k = 0; k < most && more; ++k) {
     const double energy = transform_.energies()[k];
     const RatePoint point = component(k, q);
-    sum.bits += point.bits + stop.basis_bits(energy / (q * q));
-    sum.distortion += point.distortion;
+    distortion += point.distortion;
     unsent -= energy;
-    sums.push_back({sum.bits, sum.distortion + std::max(0.0, unsent)});
     more = stop.add(energy / (q * q), point.distortion / (q * q), point.bits) || held;
+    sums.push_back({stop.bits(), distortion + std::max(0.0, unsent)});
   }
   sums[0].distortion = transform_.energies().sum();
   return sums[held ? most : stop.best()];

@@ -51,6 +51,7 @@ class RateModel {
   RatePoint component(uint32_t k, double q);
 
   KarhunenLoeve& transform_;
+  uint32_t vertices_;
   uint32_t frames_;
   RateModelOptions options_;
   std::vector<Band> bands_;
