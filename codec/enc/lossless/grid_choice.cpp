@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace reeb {
 
@@ -155,15 +156,19 @@ bool GridChoice::choose(const ExactFrames& frames, uint32_t axis, const NumberSe
   const size_t vertices = frames.stored(0).size() / 3;
   const auto most = static_cast<uint32_t>(std::clamp<size_t>(kSamples / vertices, 2, 8));
   const uint32_t count = std::min(frames.stored_count(), most);
-  double spared = 0;
+  FrameGrid shared = find_shared(frames, axis);
+  double spared = 0, spared_shared = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const std::vector<float> values = along(frames.stored(i * frames.stored_count() / count), axis);
-    spared += std::max(0.0, gain(find_grid(values), values)) - gain(set, values) -
-              kMinGain * static_cast<double>(values.size());
+    const double least = gain(set, values) + kMinGain * static_cast<double>(values.size());
+    spared += std::max(0.0, gain(find_grid(values), values)) - least;
+    spared_shared += gain(shared, values) - gain(set, values);
   }
-  if (spared <= 0) return false;
-  last_ = find_shared(frames, axis);
-  return true;
+  // Frames that keep one grid follow each other more smoothly; if each of them lies on a coarser
+  // one, that is worth more.
+  const bool one_grid = shared.count > 0 && spared_shared >= std::max(spared, 0.0);
+  if (one_grid) last_ = std::move(shared);
+  return one_grid || spared > 0;
 }
 
 FrameGrid GridChoice::next(std::span<const float> frame) {
