@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
@@ -14,6 +16,7 @@
 #include "codec/enc/lossless/lossless_sequence.h"
 #include "codec/enc/search/group_plan.h"
 #include "codec/enc/search/lossless_offer.h"
+#include "codec/enc/search/outliers.h"
 #include "codec/enc/search/profile_tools.h"
 #include "codec/enc/search/sequence_encoder.h"
 #include "codec/enc/search/sequence_summary.h"
@@ -109,15 +112,54 @@ bool wants_no_error(const Sequence& sequence, const EncodeOptions& options) {
   return options.target_value <= static_cast<double>(largest) * kPrecision;
 }
 
+/// Codes with a bound on every error. `base`: without outliers, which is smaller unless they are
+/// many.
+Status encode_bounded(const Sequence& sequence, const Sequence& base, const EncodeOptions& options,
+                      std::vector<uint8_t>& out, EncodeStats& stats, bool& missed) {
+  Status status = SequenceEncoder(sequence, base, options).run(out, stats, missed);
+  if ((!status.ok() && !missed) || wants_no_error(sequence, options)) return status;
+  std::vector<uint8_t> other;
+  EncodeStats other_stats;
+  bool other_missed = false;
+  const Status other_status =
+      SequenceEncoder(sequence, options).run(other, other_stats, other_missed);
+  if (!other_status.ok()) return other_missed ? status : other_status;
+  if (!missed && out.size() <= other.size()) return status;
+  out = std::move(other);
+  stats = std::move(other_stats);
+  missed = false;
+  return {};
+}
+
+/// Says so where errors of outliers are all that the KG error tells.
+void tell_outliers(const Sequence& sequence, const Sequence& base, EncodeStats& stats) {
+  constexpr double kDrowned = 100;
+  if (energy_of(sequence) <= kDrowned * energy_of(base)) return;
+  stats.notes.push_back(
+      "some coordinates are so far from all others that errors of these hardly count for the KG "
+      "error; repair them, or bound the largest error (--max-error)");
+}
+
+Status encode_lossy(const Sequence& sequence, const std::optional<Sequence>& base,
+                    const EncodeOptions& options, std::vector<uint8_t>& out, EncodeStats& stats,
+                    bool& missed) {
+  if (base && options.target == Target::kMaxError)
+    return encode_bounded(sequence, *base, options, out, stats, missed);
+  const Status status = SequenceEncoder(sequence, options).run(out, stats, missed);
+  if (status.ok() && base) tell_outliers(sequence, *base, stats);
+  return status;
+}
+
 Status encode_positions(const Sequence& sequence, const EncodeOptions& options,
                         std::vector<uint8_t>& out, EncodeStats& stats) {
   out.clear();
   stats = {};
   if (options.target == Target::kLossless)
     return encode_lossless(sequence, options, {}, out, stats);
-  bool missed = wants_no_error(sequence, options);
+  const std::optional<Sequence> base = without_outliers(sequence);
+  bool missed = wants_no_error(base ? *base : sequence, options);
   Status status;
-  if (!missed) status = SequenceEncoder(sequence, options).run(out, stats, missed);
+  if (!missed) status = encode_lossy(sequence, base, options, out, stats, missed);
   if (missed && is_error(options.target)) {
     status = encode_exactly(sequence, options, out, stats);
     stats.notes.push_back("lossless coding, since the target is out of reach with a loss");

@@ -108,6 +108,21 @@ TEST_CASE("the bound holds with one frame far away", "[bounded]") {
   }
 }
 
+TEST_CASE("an outlier costs its own corrections and no more", "[bounded]") {
+  const Sequence sequence = moving_torus(32, 20, 12);
+  const size_t frame = sequence.shots[0].frame(0).size();
+  const size_t plain = check_bound(sequence, 1e-4);
+  for (const float distance : {1e4f, 1e7f}) {
+    Sequence vertex = sequence;  // one vertex in all frames
+    for (size_t t = 0; t < 12; ++t) vertex.shots[0].positions[t * frame + 300] += distance;
+    // 32 bits for each of its coordinates, and something for the shape of the neighbourhood.
+    CHECK(check_bound(vertex, 1e-4) < plain + plain / 10 + 12 * 4);
+    Sequence glitch = sequence;  // in one frame
+    glitch.shots[0].positions[5 * frame + 300] = distance;
+    CHECK(check_bound(glitch, 1e-4) < plain + plain / 20 + 12);
+  }
+}
+
 TEST_CASE("the bound holds with coordinates of very different sizes", "[bounded]") {
   Sequence sequence = moving_torus(12, 8, 7);
   std::mt19937 random(7);

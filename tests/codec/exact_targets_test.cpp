@@ -44,10 +44,17 @@ TEST_CASE("a frame or a vertex far away puts no target out of reach", "[exact_ta
     Sequence frame = bending();
     const size_t size = frame.shots[0].connectivity.vertex_count * size_t{3};
     for (size_t i = 4 * size; i < 5 * size; ++i) frame.shots[0].positions[i] += 1e6f;
-    CHECK(errors_of(frame, encode_or_fail(frame, options)).kg <= 0.05);
+    const Encoded far_frame = encode_or_fail(frame, options);
+    CHECK(errors_of(frame, far_frame).kg <= 0.05);
+    for (const std::string& note : far_frame.stats.notes)
+      CHECK(note.find("hardly count") == note.npos);  // each frame has a mean of its own
     Sequence vertex = bending();
     vertex.shots[0].positions[7 * size + 30] = 1e8f;
-    CHECK(errors_of(vertex, encode_or_fail(vertex, options)).kg <= 0.05);
+    const Encoded far_vertex = encode_or_fail(vertex, options);
+    CHECK(errors_of(vertex, far_vertex).kg <= 0.05);
+    REQUIRE(far_vertex.stats.notes.size() == 1);
+    const bool exact = far_vertex.stats.max_error == 0;
+    CHECK(far_vertex.stats.notes[0].find(exact ? "lossless" : "hardly count") != std::string::npos);
   }
 }
 

@@ -17,7 +17,8 @@ constexpr double kMaxSteps = 9007199254740991.0;  // 2^53 - 1
 /// Chooses the correction of single coordinates.
 class Corrector {
  public:
-  /// `largest`: the largest magnitude of a coordinate.
+  /// `largest`: the largest magnitude of what is corrected. Coordinates that are far from it may be
+  /// larger, and are replaced.
   Corrector(double bound, float largest) : bound_(bound), step_(bound) {
     // Twice the bound is enough, but for the rounding of the corrected value to binary32.
     const float next = std::nextafter(largest, std::numeric_limits<float>::infinity());
@@ -65,7 +66,7 @@ CodedCorrections encode_corrections(const GroupSynthesis& base, std::span<const 
   const uint32_t frames = base.frame_count();
   const size_t frame_size = size_t{surface.rows()} * 3;
   const std::vector<float> decoded = decode_vertices(base, surface.rows());
-  const Corrector corrector(bound, largest_magnitude(original));
+  const Corrector corrector(bound, largest_magnitude(decoded));
   CodedCorrections out;
   out.step = corrector.step();
   out.corrections = Corrections(frames, out.step);

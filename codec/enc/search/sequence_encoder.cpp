@@ -58,14 +58,16 @@ Status unreachable(const EncodeStats& nearest) {
 
 }  // namespace
 
-SequenceEncoder::SequenceEncoder(const Sequence& sequence, const EncodeOptions& options)
+SequenceEncoder::SequenceEncoder(const Sequence& sequence, const Sequence& base,
+                                 const EncodeOptions& options)
     : sequence_(sequence),
       options_(options),
       effort_(effort_preset(options.effort)),
       tools_(tools_of(options.profile)) {
   uint32_t first_frame = 0;
-  for (const Shot& shot : sequence.shots) {
-    shots_.push_back(std::make_unique<ShotEncoder>(shot, first_frame, options,
+  for (size_t i = 0; i < sequence.shots.size(); ++i) {
+    const Shot& shot = sequence.shots[i];
+    shots_.push_back(std::make_unique<ShotEncoder>(shot, base.shots[i], first_frame, options,
                                                    resolve_threads(options.threads)));
     first_frame += shot.frame_count;
     energy_ += shots_.back()->energy();
@@ -79,7 +81,7 @@ bool SequenceEncoder::advance(double part) {
 }
 
 double SequenceEncoder::kg_of(double squared_error) const {
-  return energy_ > 0 ? 100 * std::sqrt(squared_error / energy_) : 0;
+  return kg_error(squared_error, energy_);
 }
 
 double SequenceEncoder::excess_of(const Attempt& a) const {
@@ -360,7 +362,7 @@ ErrorSums SequenceEncoder::measure(const Attempt& a) const {
 EncodeStats SequenceEncoder::stats() const {
   const ErrorSums sums = measure(best_);
   EncodeStats out = size_stats(best_.bytes, vertex_frames_);
-  out.kg = kg_of(sums.squared);
+  out.kg = kg_error(sums.squared, energy_of(sequence_));
   out.rmse = std::sqrt(sums.squared / vertex_frames_);
   out.max_error = sums.largest;
   for (const CodedShot& shot : best_.shots) {

@@ -26,7 +26,10 @@ struct Attempt {
 class SequenceEncoder {
  public:
   /// `sequence` must outlive the encoder and satisfy the pre-conditions of `encode`.
-  SequenceEncoder(const Sequence& sequence, const EncodeOptions& options);
+  SequenceEncoder(const Sequence& sequence, const EncodeOptions& options)
+      : SequenceEncoder(sequence, sequence, options) {}
+  /// `base` is coded where corrections lead from it to `sequence`: Target::kMaxError.
+  SequenceEncoder(const Sequence& sequence, const Sequence& base, const EncodeOptions& options);
 
   /// `missed`: the target is out of reach; `stats` are then those of the nearest.
   Status run(std::vector<uint8_t>& out, EncodeStats& stats, bool& missed);
@@ -89,7 +92,7 @@ class SequenceEncoder {
   const EffortPreset& effort_;
   const ProfileTools& tools_;
   std::vector<std::unique_ptr<ShotEncoder>> shots_;
-  double energy_ = 0;
+  double energy_ = 0;  ///< of the base
   double vertex_frames_ = 0;
   Attempt best_;
   double done_ = 0;

@@ -20,21 +20,22 @@ constexpr double kGridSlope = 0.6;  ///< bits per halving of the error
 
 }  // namespace
 
-ShotEncoder::ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
-                         unsigned threads)
+ShotEncoder::ShotEncoder(const Shot& shot, const Shot& base, uint32_t first_frame,
+                         const EncodeOptions& options, unsigned threads)
     : shot_(shot),
+      base_(base),
       plan_(shot.connectivity),
       first_frame_(first_frame),
       reorder_(options.reorder),
       profile_(options.profile),
       stop_(options.stop),
       bound_(options.target == Target::kMaxError ? options.target_value : 0),
-      longest_side_(bounds_of(shot.frame(0)).side) {
+      longest_side_(bounds_of(base.frame(0)).side) {
   const GroupPlan groups = plan_groups(shot, options);
   open_groups_ = groups.open_groups;
   uint32_t first = 0;
   for (const uint32_t length : groups.lengths) {
-    GroupSignal signal = make_group_signal(shot, first, length);
+    GroupSignal signal = make_group_signal(base, first, length);
     energy_ += signal.energy;
     largest_ = std::max(largest_, signal.largest);
     groups_.push_back({first, tools_of(profile_).make_encoder(std::move(signal), threads)});
@@ -61,7 +62,7 @@ Status ShotEncoder::prepare(const ShotSettings& settings) {
   }
   auto made = std::make_shared<SurfaceContext>();
   const ReferenceOptions options{.reorder = reorder_, .plain = settings.plain};
-  if (Status s = make_surface_context(shot_, plan_, settings.grid_bits, options, *made); !s.ok())
+  if (Status s = make_surface_context(base_, plan_, settings.grid_bits, options, *made); !s.ok())
     return s;
   surface_ = std::move(made);
   made_.push_back({settings.grid_bits, settings.plain, surface_});
@@ -73,14 +74,14 @@ std::vector<uint32_t> ShotEncoder::find_regions(uint32_t wanted, uint32_t& count
   if (reeb_regions_ == nullptr) {
     for (const uint32_t v : surface_->mesh.triangles) triangles_.push_back(surface_->input_of[v]);
     reeb_regions_ =
-        std::make_unique<segmentation::Result>(segmentation::segment(shot_.frame(0), triangles_));
+        std::make_unique<segmentation::Result>(segmentation::segment(base_.frame(0), triangles_));
   }
   if (wanted == ShotSettings::kReebRegions) {
     count = reeb_regions_->region_count;
     return reeb_regions_->labels;
   }
   if (partitions_ == nullptr) {
-    const segmentation::MotionInput input{shot_.frame(0), triangles_, shot_.positions};
+    const segmentation::MotionInput input{base_.frame(0), triangles_, base_.positions};
     partitions_ = std::make_unique<segmentation::MotionPartitions>(input, *reeb_regions_);
   }
   count = std::clamp(wanted, 1u, partitions_->finest());

@@ -39,9 +39,10 @@ class ShotEncoder {
  public:
   static constexpr uint32_t kMinGridBits = 9, kMaxGridBits = 16;
 
-  /// `shot` must outlive the encoder; `first_frame` is its place in the sequence.
-  ShotEncoder(const Shot& shot, uint32_t first_frame, const EncodeOptions& options,
-              unsigned threads);
+  /// `base` is what is coded, `shot` what corrections make of it, the same where there are none;
+  /// both must outlive the encoder. `first_frame` is its place in the sequence.
+  ShotEncoder(const Shot& shot, const Shot& base, uint32_t first_frame,
+              const EncodeOptions& options, unsigned threads);
 
   /// Bits of the grid that suits an RMS error of `error` per coordinate (world units), before
   /// rounding.
@@ -65,7 +66,7 @@ class ShotEncoder {
 
   double energy() const {
     return energy_;
-  }  ///< sum of squares about the mean of each frame and axis
+  }  ///< of the base: sum of squares about the mean of each frame and axis
   double largest_coefficient() const { return largest_; }  ///< bound on any, world units
   double vertex_frames() const;                            ///< vertices times frames
   double longest_side() const { return longest_side_; }    ///< of the first frame's bounding box
@@ -98,6 +99,7 @@ class ShotEncoder {
   void correct(const Group& group, CodedGroup& coded) const;
 
   const Shot& shot_;
+  const Shot& base_;
   ReferencePlan plan_;
   uint32_t first_frame_;
   bool reorder_;

@@ -1,7 +1,6 @@
 #include "codec/enc/search/snapped_sequence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "codec/common/lossless/number_set.h"
@@ -26,20 +25,6 @@ void snap(Shot& shot, const NumberSet& multiples, double bound) {
   }
 }
 
-/// Sum of squares of a frame about the mean of each axis.
-double energy_of(std::span<const float> frame) {
-  const size_t vertices = frame.size() / 3;
-  std::array<double, 3> mean{};
-  for (size_t i = 0; i < frame.size(); ++i) mean[i % 3] += static_cast<double>(frame[i]);
-  for (double& m : mean) m /= static_cast<double>(vertices);
-  double energy = 0;
-  for (size_t i = 0; i < frame.size(); ++i) {
-    const double d = static_cast<double>(frame[i]) - mean[i % 3];
-    energy += d * d;
-  }
-  return energy;
-}
-
 }  // namespace
 
 Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
@@ -48,19 +33,16 @@ Status encode_snapped(const Sequence& sequence, const EncodeOptions& options,
   const NumberSet multiples = NumberSet::multiples(step);
   Sequence snapped = sequence;
   ErrorSums errors;
-  double energy = 0;
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     const Shot& shot = sequence.shots[i];
     snap(snapped.shots[i], multiples, options.target_value);
-    for (uint32_t t = 0; t < shot.frame_count; ++t) {
+    for (uint32_t t = 0; t < shot.frame_count; ++t)
       errors.add(shot.frame(t), snapped.shots[i].frame(t));
-      energy += energy_of(shot.frame(t));
-    }
   }
   if (Status s = encode_lossless(snapped, options, {.step = step, .face_order = false}, out, stats);
       !s.ok())
     return s;
-  stats.kg = energy > 0 ? 100 * std::sqrt(errors.squared / energy) : 0;
+  stats.kg = kg_error(errors.squared, energy_of(sequence));
   stats.rmse = std::sqrt(errors.squared / vertex_frames_of(sequence));
   stats.max_error = errors.largest;
   return {};
