@@ -35,6 +35,19 @@ std::string media_type(const fs::path& name) {
   return "application/octet-stream";
 }
 
+constexpr std::array kImages{".png", ".jpg", ".jpeg", ".tga", ".bmp",  ".tif", ".tiff",
+                             ".gif", ".dds", ".hdr",  ".exr", ".webp", ".ktx2"};
+
+/// False where a link leads out of the folder.
+bool is_within(const fs::path& folder, const fs::path& path) {
+  std::error_code failed;
+  const fs::path root = fs::canonical(folder, failed);
+  if (failed) return false;
+  const fs::path real = fs::canonical(path, failed);
+  return !failed &&
+         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+}
+
 /// Options of a texture statement, and how many words follow each at most.
 constexpr std::array kTextureOptions{
     std::pair{"-blendu", 1}, std::pair{"-blendv", 1}, std::pair{"-cc", 1},
@@ -80,6 +93,13 @@ class MaterialFiles {
     if (std::any_of(resources_.begin(), resources_.end(), there)) return {};
     FileBytes file;
     const fs::path path = folder_ / name;
+    std::error_code ignored;
+    if (fs::exists(path, ignored) && !(may_lie_beside(name) && is_within(folder_, path))) {
+      notes_.push_back(name +
+                       ": not embedded, for only material files and images in the folder of the "
+                       "mesh or below it are; copy it there");
+      return {};
+    }
     const Status status = FileBytes::read(path, file);
     if (!status.ok()) {
       notes_.push_back(status.message() + "; it is not embedded");
@@ -114,6 +134,17 @@ std::vector<std::string> names_in(const fs::path& folder, const std::string& lin
 }
 
 }  // namespace
+
+bool may_lie_beside(const std::string& text) {
+  const fs::path name(text);
+  const std::string extension = lower_extension(name);
+  if (extension != ".mtl" && std::find(kImages.begin(), kImages.end(), extension) == kImages.end())
+    return false;
+  if (name.is_absolute() || text.find_first_of("\\:") != std::string::npos) return false;
+  return std::none_of(name.begin(), name.end(), [](const fs::path& part) {
+    return part.empty() || (part != "." && part.string().starts_with('.'));
+  });
+}
 
 std::vector<std::string> textures_of(std::string_view text) {
   std::vector<std::string> out;

@@ -9,8 +9,13 @@
 
 namespace reeb::tools {
 
+/// True of names of material texts and images in the folder of a mesh or below it: whatever a file
+/// names, no other leaves the folder with a stream, or comes out of one.
+bool may_lie_beside(const std::string& name);
+
 /// Adds the files that `mtllib` names in the shot, and the images that those name, to `resources`,
-/// each once. They are looked for in `folder`; `notes` tells what is not there.
+/// each once. They are looked for in `folder`; `notes` tells what is not there or may not lie
+/// there.
 void add_material_files(const std::filesystem::path& folder, const Shot& shot,
                         std::vector<Resource>& resources, std::vector<std::string>& notes);
 

@@ -10,6 +10,7 @@
 #include "tools/io/attribute_values.h"
 #include "tools/io/frame_list.h"
 #include "tools/io/gather_attributes.h"
+#include "tools/io/material_files.h"
 #include "tools/io/mesh_file.h"
 #include "tools/io/output_set.h"
 #include "tools/io/point_cache.h"
@@ -139,20 +140,6 @@ Status write_cache(const FrameSource& source, const fs::path& cache, CacheFormat
   return {};
 }
 
-/// What may come out of a stream into a folder: material texts and images, under plain names.
-bool is_writable(const Resource& resource) {
-  constexpr std::array kExtensions{".mtl",  ".png", ".jpg", ".jpeg", ".tga", ".bmp",  ".tif",
-                                   ".tiff", ".gif", ".dds", ".hdr",  ".exr", ".webp", ".ktx2"};
-  const fs::path name(resource.name);
-  const std::string extension = lower_extension(name);
-  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
-    return false;
-  if (name.is_absolute() || resource.name.find_first_of("\\:") != std::string::npos) return false;
-  return std::none_of(name.begin(), name.end(), [](const fs::path& part) {
-    return part.empty() || part.string().starts_with('.');
-  });
-}
-
 /// Files that meshes name, and where they go.
 class ResourceFiles {
  public:
@@ -161,7 +148,7 @@ class ResourceFiles {
                 const WriteOptions& options) {
     Unwritten unwritten(output, options.notes);
     for (const Resource& r : source.resources) {
-      if (!mesh.empty() && is_writable(r))
+      if (!mesh.empty() && may_lie_beside(r.name))
         files_.emplace_back(mesh.parent_path() / r.name, &r);
       else
         unwritten.add({r.name});

@@ -263,4 +263,28 @@ TEST_CASE("OBJ: material texts and the textures that they name are taken along")
   CHECK_THAT(report.notes[0], Contains("gone.mtl: cannot be read"));
 }
 
+TEST_CASE("OBJ: no file outside of the mesh's folder is taken along, and no hidden one") {
+  const TempFolder folder;
+  const std::string secret = folder.write("secret.png", "mine");
+  folder.write("m/.ssh/key.png", "mine");
+  folder.write("m/key", "mine");
+  folder.write("m/good.png", "theirs");
+  std::filesystem::create_symlink(secret, folder / "m/link.png");
+  std::filesystem::create_symlink("good.png", folder / "m/inside.png");
+  folder.write("m/a.obj", "mtllib a.mtl\n" + kVertices);
+  folder.write("m/a.mtl", "map_Kd ../secret.png\nmap_Kd " + secret +
+                              "\nmap_Kd .ssh/key.png\nmap_Kd link.png\nmap_Kd key\n"
+                              "map_Kd ./good.png\nmap_Kd inside.png\n");
+  Sequence sequence;
+  ReadReport report;
+  REQUIRE(read_sequence({folder / "m/a.obj"}, {.embed = true}, sequence, report).ok());
+  REQUIRE(sequence.resources.size() == 3);
+  CHECK(sequence.resources[1].name == "./good.png");
+  CHECK(sequence.resources[2].name == "inside.png");
+  REQUIRE(report.notes.size() == 5);
+  for (const std::string& note : report.notes)
+    CHECK_THAT(note, Contains("not embedded") && Contains("copy it there"));
+  CHECK_THAT(report.notes[0], Catch::StartsWith("../secret.png"));
+}
+
 }  // namespace reeb::tools
