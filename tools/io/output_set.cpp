@@ -93,6 +93,15 @@ bool move_to_free_name(const fs::path& from, const fs::path& to) {
   return std::rename(from.c_str(), to.c_str()) == 0;
 }
 
+// As if the file with that name were written to: what may read it today may read it tomorrow.
+void take_permissions(int descriptor, const fs::path& real) {
+  struct stat before {};
+  if (::stat(real.c_str(), &before) != 0 || !S_ISREG(before.st_mode)) return;
+  mode_t mode = before.st_mode & 0777;
+  if (::fchown(descriptor, static_cast<uid_t>(-1), before.st_gid) != 0) mode &= ~mode_t{070};
+  ::fchmod(descriptor, mode | S_IRUSR | S_IWUSR);
+}
+
 // Behind symbolic links, so that the link stays and its file changes.
 fs::path resolved(const fs::path& path) {
   if (is_standard_output(path.string())) return path;
@@ -116,6 +125,11 @@ Status check_target(const fs::path& target, bool overwrite) {
   }
   if (fs::is_regular_file(status) && !overwrite) {
     return Status::io(target.string() + ": exists already; pass -f to overwrite it");
+  }
+  // A new file could take its name, but whoever has protected it does not want that.
+  if (fs::is_regular_file(status) && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) {
+    return Status::io(target.string() + ": cannot be overwritten (" + std::strerror(errno) +
+                      "); allow writing to it or name another file");
   }
   return {};
 }
@@ -213,6 +227,7 @@ Status OutputSet::open(File& file, int& descriptor) const {
   const bool special = file.written == file.real;
   if (!special && !file.started) {
     descriptor = create(file.real, file.written);
+    if (descriptor >= 0) take_permissions(descriptor, file.real);
   } else {
     const int flags = special ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC;
     descriptor = ::open(file.written.c_str(), flags);

@@ -1,4 +1,5 @@
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -181,6 +182,37 @@ TEST_CASE("new files have the permissions that the user's mask leaves") {
   REQUIRE(files.commit().ok());
   ::umask(mask);
   CHECK(std::filesystem::status(folder / "a").permissions() == std::filesystem::perms{0640});
+}
+
+TEST_CASE("overwriting keeps the permissions of a file") {
+  const TempFolder folder;
+  for (const unsigned mode : {0600u, 0660u, 0755u, 0644u}) {
+    folder.write("a", "before");
+    std::filesystem::permissions(folder / "a", std::filesystem::perms{mode});
+    OutputSet files(true);
+    REQUIRE(files.prepare({folder / "a"}).ok());
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      CHECK(entry.status().permissions() ==
+            std::filesystem::perms{mode});  // the temporary one, too
+    REQUIRE(files.write(folder / "a", "x").ok());
+    REQUIRE(files.commit().ok());
+    CHECK(std::filesystem::status(folder / "a").permissions() == std::filesystem::perms{mode});
+    CHECK(read_text(folder / "a") == "x");
+  }
+}
+
+TEST_CASE("a write-protected file is not overwritten") {
+  const TempFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  folder.write("a", "before");
+  std::filesystem::permissions(folder / "a", std::filesystem::perms{0444});
+  const uid_t user = ::geteuid();
+  if (user == 0) REQUIRE(::seteuid(65534) == 0);  // root may write to anything
+  OutputSet files(true);
+  const Status status = files.prepare({folder / "a"});
+  if (user == 0) REQUIRE(::seteuid(user) == 0);
+  CHECK_THAT(status.message(), Catch::Contains("a: cannot be overwritten (Permission denied)"));
+  CHECK(folder.names() == std::set<std::string>{"a"});
 }
 
 TEST_CASE("output names") {
