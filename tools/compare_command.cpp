@@ -55,7 +55,7 @@ struct Side {
   bool has(uint32_t number) const {
     return std::binary_search(present.begin(), present.end(), number);
   }
-  std::string damage() const { return describe_missing(name, report.missing, total_frames); }
+  std::string damage() const { return describe_damage(name, report); }
 
   /// Keeps the frames called `numbers`, all of which are there.
   void keep(const std::vector<uint32_t>& numbers) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bitstream/chunk.h"
 #include "tools/command.h"
 #include "tools/text.h"
 
@@ -44,6 +45,31 @@ std::string describe_missing(const std::string& name, const std::vector<StreamIn
   if (count == total_frames) return name + ": no frame can be decoded, all are damaged or cut off";
   return name + ": " + (count == 1 ? "frame " : "frames ") + list + " of " + grouped(total_frames) +
          (count == 1 ? " is" : " are") + " damaged or cut off";
+}
+
+std::string describe(const DamagedRange& range) {
+  return "bytes " + grouped(range.offset + 1) + " to " + grouped(range.offset + range.size) +
+         (range.type.empty() ? "" : " (" + range.type + ")") + " are damaged";
+}
+
+std::string describe_damage(const std::string& name, const StreamInfo& info,
+                            const std::vector<StreamInfo::Gap>& missing) {
+  std::string out = describe_missing(name, missing, info.total_frames);
+  const auto add = [&](const std::string& what) {
+    out += (out.empty() ? name + ": " : ", ") + what;
+  };
+  for (const DamagedRange& range : info.damaged) {
+    const bool told = range.type.empty() ? !info.missing.empty()
+                                         : range.type == to_string(kGroupChunk) ||
+                                               range.type == to_string(kReferenceChunk);
+    if (!told) add(describe(range));
+  }
+  if (info.truncated && info.missing.empty()) add("truncated, the end of the file is missing");
+  return out;
+}
+
+std::string describe_damage(const std::string& name, const ReadReport& report) {
+  return report.stream ? describe_damage(name, *report.stream, report.missing) : std::string();
 }
 
 int finish_damaged(Console& console, const std::string& what, bool keep_going) {

@@ -55,8 +55,10 @@ class StreamWriter {
     if (!status.ok()) return fail(console_, status);
     console_.say_all(notes_);
     console_.say(options_.output + ": " + counted(written_, "frame"));
-    const int exit_code = finish_damaged(console_, written_ == wanted_.size() ? "" : missing_text(),
-                                         options_.keep_going);
+    const bool complete = written_ == wanted_.size();
+    const std::string damage = describe_damage(
+        options_.input, decoder_.info(), complete ? std::vector<StreamInfo::Gap>() : missing_);
+    const int exit_code = finish_damaged(console_, damage, options_.keep_going);
     return std::max(exit_code, finish_damaged(console_, lost_text(), options_.keep_going));
   }
 
@@ -71,11 +73,6 @@ class StreamWriter {
   std::string lost_text() const {
     std::string names;
     for (const std::string& name : lost_) names += (names.empty() ? "" : ", ") + name;
-    for (const DamagedRange& range : decoder_.info().damaged) {
-      if (range.type == to_string(kAttributeChunk) || range.type == to_string(kResourceChunk))
-        names += (names.empty() ? "" : ", ") + ("what chunk " + range.type) + " at byte " +
-                 grouped(range.offset) + " held";
-    }
     return names.empty() ? "" : options_.input + ": damaged and left out: " + names;
   }
 
@@ -217,7 +214,7 @@ void add_decode_command(CLI::App& app, int& exit_code) {
                    "standard output pc2")
       ->check(CLI::IsMember({"obj", "ply", "off", "stl", "pc2", "mdd"}).description(""))
       ->type_name("obj|ply|off|stl|pc2|mdd");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files; their permissions stay");
   add_frames_option(*command, o->frames, "all");
   command->add_flag("--reverse", o->reverse, "Last frame first");
   command

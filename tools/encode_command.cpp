@@ -304,10 +304,8 @@ int run(Options& o) {
   if (status.ok()) status = write_stream(o, bytes, files);
   if (!status.ok()) return fail(console, status);
   console.say_all(stats.notes);
-  const uint32_t total = read.stream ? read.stream->total_frames : 0;
   return std::max(report(o, sequence, read, bytes, stats, console),
-                  finish_damaged(console, describe_missing(o.inputs.back(), read.missing, total),
-                                 o.keep_going));
+                  finish_damaged(console, describe_damage(o.inputs.back(), read), o.keep_going));
 }
 
 void add_target_options(CLI::App& command, Options& o) {
@@ -419,7 +417,7 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", o->output, "The .reeb file; - = standard output")
       ->required()
       ->type_name("FILE");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file; its permissions stay");
   command->add_flag("--allow-gaps", o->allow_gaps, "Missing frame numbers are not an error");
   add_frames_option(*command, o->frames, "all");
   add_keep_going_option(*command, o->keep_going);
@@ -428,8 +426,10 @@ void add_encode_command(CLI::App& app, int& exit_code) {
   add_coding_options(*command, *o);
   add_attribute_option(*command, o->attributes);
   command
-      ->add_flag("--embed", o->embed,
-                 "Take along the material files (.mtl) that an OBJ names, and their textures")
+      ->add_flag(
+          "--embed", o->embed,
+          "Take along the material files (.mtl) that an OBJ names, and their textures, as far "
+          "as they are in its folder or below it")
       ->group("Attributes");
   command->add_option("--fps", o->frame_rate, "Frames per second, > 0; default as in the input")
       ->check(check_positive)

@@ -269,8 +269,7 @@ int show(const Options& o, const std::string& name, Console& console, std::ostre
   } else {
     print_text(name, info, text);
   }
-  return finish_damaged(console, describe_missing(name, info.missing, info.total_frames),
-                        o.keep_going);
+  return finish_damaged(console, describe_damage(name, info, info.missing), o.keep_going);
 }
 
 int run(const Options& o) {

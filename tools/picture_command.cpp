@@ -53,8 +53,7 @@ Status load(const Options& o, const std::vector<std::string>& names, Console& co
       read_sequence(names, {.threads = o.threads, .progress = console.bar("reading")}, out, report);
   if (!status.ok()) return status;
   console.say_all(report.notes);
-  if (report.stream)
-    damage = describe_missing(names.back(), report.missing, report.stream->total_frames);
+  damage = describe_damage(names.back(), report);
   return {};
 }
 
@@ -149,7 +148,7 @@ void add_picture_command(CLI::App& app, int& exit_code) {
       ->expected(1, 4)
       ->type_name("");
   command->add_option("-o,--output", o->output, "The PNG file")->required()->type_name("FILE");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file; its permissions stay");
   add_frames_option(*command, o->frames, "four");
   add_keep_going_option(*command, o->keep_going);
   const std::string group = "View";

@@ -71,7 +71,7 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("");
   command->add_option("-o,--output", o->output, "The SVG file")->required()->type_name("FILE");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite an existing file; its permissions stay");
   const std::string group = "Columns";
   command->add_option("-x", o->x, "Column along; default bpvf")->type_name("COLUMN")->group(group);
   command->add_option("-y", o->y, "Column upwards; default kg")->type_name("COLUMN")->group(group);

@@ -65,7 +65,7 @@ void add_sample_command(CLI::App& app, int& exit_code) {
   command->add_flag("--attributes", o->attributes,
                     "Texture coordinates, normals and materials of the creature, stretch of the "
                     "sheet (.ply), groups and colours of the mechanism, too");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files; their permissions stay");
   add_threads_option(*command, o->threads);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });

@@ -169,9 +169,7 @@ int run(const Options& o) {
   status = write_all(o, segmented, output);
   if (!status.ok()) return fail(console, status);
   console.say(segmented.summary());
-  const uint32_t total = report.stream ? report.stream->total_frames : 0;
-  return finish_damaged(console, describe_missing(o.inputs.back(), report.missing, total),
-                        o.keep_going);
+  return finish_damaged(console, describe_damage(o.inputs.back(), report), o.keep_going);
 }
 
 void add_picture_options(CLI::App& command, Options& o) {
@@ -225,7 +223,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
           "and branching of the graph")
       ->check(CLI::Range(1u, 2000u).description(""))
       ->type_name("N");
-  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files");
+  command->add_flag("-f,--force", o->overwrite, "Overwrite existing files; their permissions stay");
   add_keep_going_option(*command, o->keep_going);
   add_picture_options(*command, *o);
   add_threads_option(*command, o->threads);

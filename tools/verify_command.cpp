@@ -17,11 +17,6 @@ struct Options {
   ConsoleOptions console;
 };
 
-std::string describe(const DamagedRange& range) {
-  return "bytes " + grouped(range.offset + 1) + " to " + grouped(range.offset + range.size) +
-         (range.type.empty() ? "" : " (" + range.type + ")") + " are damaged";
-}
-
 /// What is wrong with one file, by sentences; decodes all of it.
 Status check(const std::string& name, const Options& o, Console& console,
              std::vector<std::string>& faults) {

@@ -145,6 +145,37 @@ TEST_CASE("one damaged group does not cost the others") {
   }
 }
 
+TEST_CASE("what is cut off or damaged is said where no frame is lost, too") {
+  const Grouped files;
+  const std::string whole = read_text(files.stream);
+  for (const size_t cut : {size_t{1}, size_t{20}}) {
+    const std::string broken = files.write("end.reeb", whole.substr(0, whole.size() - cut));
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"decode", broken, "-f", "-o", files / "d.pc2"},
+          {"encode", broken, "-f", "-o", files / "n.reeb"},
+          {"info", broken},
+          {"verify", broken},
+          {"picture", broken, "-f", "-o", files / "p.png"},
+          {"compare", files.cache, broken}}) {
+      INFO(command[0]);
+      const CommandResult result = run_reeb(command);
+      CHECK(result.exit_code == kExitFailed);
+      CHECK_THAT(result.err, Contains("the end of the file is"));
+    }
+    CHECK(run_reeb({"info", broken, "--keep-going"}).exit_code == kExitDone);
+    const CommandResult length = run_reeb({"compare", files / "d.pc2", files / "d.pc2", "--json"});
+    CHECK(json::parse(length.out)["frames"] == 12);
+  }
+  std::string bytes = whole;  // the boxes of the groups
+  const size_t boxes = bytes.find("bnds");
+  REQUIRE(boxes != bytes.npos);
+  bytes[boxes + 16] ^= 1;
+  const CommandResult result =
+      run_reeb({"decode", files.write("boxes.reeb", bytes), "-f", "-o", files / "d.pc2"});
+  CHECK(result.exit_code == kExitFailed);
+  CHECK_THAT(result.err, Contains("(bnds) are damaged; the rest is good"));
+}
+
 TEST_CASE("frames of a damaged file are compared with their own") {
   const Grouped files;
   const auto figures = [&](const std::string& stream) {
