@@ -188,4 +188,23 @@ TEST_CASE("a file that keeps its signature is indexed without being decoded") {
   CHECK(nlohmann::json::parse(found.out)["results"][0]["score"].get<double>() > 90);
 }
 
+TEST_CASE("what has no surface is named, and the rest is indexed", "[hostile]") {
+  const TempFolder folder;
+  folder.write("cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n");
+  folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  REQUIRE(run_reeb({"sample", "vase-1", "--length", "1", "-o", folder / "good_%d.off"}).exit_code ==
+          0);
+  const std::string archive = folder / "x.json";
+  const CommandResult result = run_reeb({"index", folder.path().string(), "-o", archive});
+  CHECK(result.exit_code == 1);
+  for (const char* name : {"cloud.obj", "flat.obj", "one.obj"})
+    CHECK(result.err.find(std::string(name) + ": no surface that could be signed") !=
+          std::string::npos);
+  CHECK(result.err.find("1 signed now, 0 unchanged, 3 failed") != std::string::npos);
+  const CommandResult found = run_reeb({"search", archive, folder / "one.obj"});
+  CHECK(found.exit_code == 1);
+  CHECK(found.err.find("one.obj: no surface") != std::string::npos);
+}
+
 }  // namespace reeb::tools
