@@ -148,7 +148,7 @@ Status SequenceDecoder::decode_groups(const ReferenceChunk& reference, const Run
 
 Status SequenceDecoder::add_shot(const ReferenceChunk& reference, const Run& run, Shot& shot) {
   std::shared_ptr<ShotFaces> faces;
-  if (Status s = store_.get_faces(reference, faces); !s.ok()) return s;
+  if (Status s = store_.get_faces(reference, {}, faces); !s.ok()) return s;
   uint64_t frames = 0;
   for (size_t g = run.begin; g < run.end; ++g) frames += container_.groups[g].header.frame_count;
   const uint64_t floats = 3 * uint64_t{faces->connectivity.vertex_count} * frames;

@@ -15,6 +15,8 @@ namespace {
 
 /// Frames that playing may skip from one call to the next.
 constexpr int64_t kLeap = 8;
+/// How much is computed between two looks whether it is still wanted.
+constexpr uint32_t kFramesAtOnce = 16, kPositionsAtOnce = 1u << 21;
 
 }  // namespace
 
@@ -82,7 +84,7 @@ Status Decoder::Impl::reference_of(uint32_t frame, const ReferenceChunk*& refere
 Status Decoder::Impl::faces_of(uint32_t frame, std::shared_ptr<ShotFaces>& faces) {
   const ReferenceChunk* reference = nullptr;
   if (Status s = reference_of(frame, reference); !s.ok()) return s;
-  return store.get_faces(*reference, faces);
+  return store.get_faces(*reference, stop_now, faces);
 }
 
 Status Decoder::Impl::triangles_of(ShotFaces& faces) {
@@ -307,8 +309,11 @@ Status Decoder::decode_frames(uint32_t first, uint32_t count, float* xyz, size_t
       std::shared_ptr<const OpenGroup> group;
       if (Status s = impl_->open_group(first + done, frame_stride / 3, stop, group); !s.ok())
         return s;
+      stop.check();
       const uint32_t at = first + done - group->header.first_frame;
-      const uint32_t there = std::min(count - done, group->header.frame_count - at);
+      const uint32_t vertices = std::max(1u, group->shot->faces->connectivity.vertex_count);
+      const uint32_t there = std::min({count - done, group->header.frame_count - at,
+                                       std::max(kFramesAtOnce, kPositionsAtOnce / vertices)});
       group->synthesis.frames(at, there, xyz + done * frame_stride, frame_stride, 3);
       done += there;
       impl_->stats.frames += there;

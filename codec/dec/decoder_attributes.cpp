@@ -138,7 +138,7 @@ Status Decoder::Impl::make_render_mesh(uint32_t frame, std::span<const uint32_t>
   const ReferenceChunk* reference = nullptr;
   if (Status s = reference_of(frame, reference); !s.ok()) return s;
   std::shared_ptr<ShotFaces> faces;
-  if (Status s = store.get_faces(*reference, faces); !s.ok()) return s;
+  if (Status s = store.get_faces(*reference, stop_now, faces); !s.ok()) return s;
   Lease lease;
   if (!lease.grow(account, render_mesh_memory(faces->connectivity)))
     return Status::limit("the render mesh needs more memory than the limit allows");

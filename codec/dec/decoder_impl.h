@@ -48,7 +48,8 @@ struct Decoder::Impl {
   GroupStore store;
   AttributeStore attribute_store;
 
-  std::mutex turn;  ///< held by each call
+  std::mutex turn;     ///< held by each call
+  StopToken stop_now;  ///< of the call that has its turn
   std::atomic<uint32_t> cancels{0};
   std::atomic<bool> loop{false};
   int64_t last_frame = -1;
@@ -100,6 +101,8 @@ struct Decoder::Impl {
     const StopToken stop(cancels);
     return guarded([&] {
       const std::lock_guard lock(turn);
+      stop_now = stop;
+      attribute_store.set_stop(stop);
       return call(stop);
     });
   }

@@ -9,7 +9,7 @@ namespace reeb {
 namespace {
 
 Status decode_coefficients(const GroupTask& task, Planes& planes) {
-  LaneField field(task.surface().graph, task.surface().lanes(), task.header().wary());
+  LaneField field(task.surface().graph, task.surface().lanes(task.stop), task.header().wary());
   const bool whole = decode_lane_field(task.chunk.coefficients, task.header().component_count,
                                        field, planes, task.stop);
   return section_status(whole, "coefficient", task.stop);

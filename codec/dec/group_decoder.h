@@ -26,8 +26,8 @@ struct DecodedSurface {
 Status check_elements(const GroupHeader& header, uint64_t vertices);
 
 /// Decodes a group. One that continues another needs the state which that one left; with `keep`,
-/// `state` is then what this group leaves, otherwise it is used up. kCancelled soon after `stop` is
-/// requested.
+/// `state` is then what this group leaves, otherwise it is used up. kCancelled, or Stopped is
+/// thrown, soon after `stop` is requested.
 Status decode_group(const GroupChunk& chunk, const DecodedSurface& surface, unsigned threads,
                     bool keep, GroupState& state, GroupSynthesis& out, const StopToken& stop = {});
 

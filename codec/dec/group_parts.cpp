@@ -71,6 +71,7 @@ Status decode_corrections(const GroupTask& task, GroupSynthesis& out) {
     const bool in_range = field.code(
         decoder, [](uint32_t, uint32_t, uint32_t) { return Correction(); },
         [&](uint32_t row, uint32_t t, uint32_t axis, const Correction& c) {
+          task.stop.check();
           if (!std::isfinite(c.value) || ++count > h.correction_count || decoder.overrun())
             return false;
           corrections.add(task.decoded.output[row], t, axis, c);

@@ -13,9 +13,10 @@ namespace reeb {
 
 namespace {
 
-DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header) {
+DecodedSurface make_surface(ReferenceMesh mesh, const ReferenceHeader& header,
+                            const StopToken& stop) {
   DecodedSurface out;
-  out.surface = Surface(mesh);
+  out.surface = Surface(mesh, stop);
   out.output.reserve(out.surface.order.size());
   for (const uint32_t v : out.surface.order) out.output.push_back(mesh.output_index[v]);
   std::copy(std::begin(header.origin), std::end(header.origin), out.origin);
@@ -99,7 +100,7 @@ std::shared_ptr<const OpenShot> GroupStore::find_shot(uint32_t shot) {
   return nullptr;
 }
 
-Status GroupStore::open_shot(const ReferenceChunk& reference, Caller caller,
+Status GroupStore::open_shot(const ReferenceChunk& reference, Caller caller, const StopToken& stop,
                              std::shared_ptr<const OpenShot>& out) {
   out = find_shot(reference.header.shot);
   if (out) return {};
@@ -120,10 +121,10 @@ Status GroupStore::open_shot(const ReferenceChunk& reference, Caller caller,
       !s.ok())
     return s;
   ReferenceMesh mesh;
-  if (Status s = decode_reference(chunk.mesh, options_.limits, mesh); !s.ok()) return s;
+  if (Status s = decode_reference(chunk.mesh, options_.limits, mesh, stop); !s.ok()) return s;
   auto faces = std::make_shared<ShotFaces>(options_.resource());
   faces->connectivity = std::move(mesh.connectivity);
-  shot->surface = make_surface(std::move(mesh), chunk.header);
+  shot->surface = make_surface(std::move(mesh), chunk.header, stop);
   shot->lease.shrink(kept_memory(shot->surface));
   if (Status s = acquire(kept_memory(faces->connectivity), caller, faces->lease); !s.ok()) return s;
   const std::lock_guard lock(mutex_);
@@ -140,7 +141,7 @@ Status GroupStore::decode_one(const GroupChunk& wanted, const Job& job, bool kee
   auto group = std::make_shared<OpenGroup>();
   group->shot = state.shot;
   if (!group->shot) {
-    if (Status s = open_shot(job.reference, job.caller, group->shot); !s.ok()) return s;
+    if (Status s = open_shot(job.reference, job.caller, job.stop, group->shot); !s.ok()) return s;
   }
   const DecodedSurface& surface = group->shot->surface;
   const uint64_t vertices = surface.output.size();
@@ -227,7 +228,8 @@ Status GroupStore::get(const GroupRequest& request, const StopToken& stop,
   return status;
 }
 
-Status GroupStore::get_faces(const ReferenceChunk& reference, std::shared_ptr<ShotFaces>& out) {
+Status GroupStore::get_faces(const ReferenceChunk& reference, const StopToken& stop,
+                             std::shared_ptr<ShotFaces>& out) {
   {
     const std::lock_guard lock(mutex_);
     const auto at = faces_.find(reference.header.shot);
@@ -237,7 +239,7 @@ Status GroupStore::get_faces(const ReferenceChunk& reference, std::shared_ptr<Sh
     }
   }
   std::shared_ptr<const OpenShot> shot;
-  if (Status s = open_shot(reference, Caller::kPlayer, shot); !s.ok()) return s;
+  if (Status s = open_shot(reference, Caller::kPlayer, stop, shot); !s.ok()) return s;
   out = shot->faces;
   return {};
 }

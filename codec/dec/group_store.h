@@ -74,12 +74,16 @@ class GroupStore {
   Status get(const GroupRequest& request, const StopToken& stop,
              std::shared_ptr<const OpenGroup>& out);
 
+  // All of these throw Stopped where `stop` is requested.
+
   /// The faces of a shot, decoding its reference mesh where that was not done yet.
-  Status get_faces(const ReferenceChunk& reference, std::shared_ptr<ShotFaces>& out);
+  Status get_faces(const ReferenceChunk& reference, const StopToken& stop,
+                   std::shared_ptr<ShotFaces>& out);
 
   /// The shot, decoding its reference mesh where it is not kept.
-  Status get_shot(const ReferenceChunk& reference, std::shared_ptr<const OpenShot>& out) {
-    return open_shot(reference, Caller::kPlayer, out);
+  Status get_shot(const ReferenceChunk& reference, const StopToken& stop,
+                  std::shared_ptr<const OpenShot>& out) {
+    return open_shot(reference, Caller::kPlayer, stop, out);
   }
 
   /// Decodes the next group of a run past the cache, for as many threads at a time as memory
@@ -116,7 +120,7 @@ class GroupStore {
   bool drop_oldest(Caller caller);
   Status acquire(uint64_t bytes, Caller caller, Lease& lease);
   std::shared_ptr<const OpenShot> find_shot(uint32_t shot);
-  Status open_shot(const ReferenceChunk& reference, Caller caller,
+  Status open_shot(const ReferenceChunk& reference, Caller caller, const StopToken& stop,
                    std::shared_ptr<const OpenShot>& out);
   Status decode(const GroupRequest& request, Caller caller, const StopToken& stop,
                 std::shared_ptr<const OpenGroup>& out);

@@ -6,16 +6,19 @@
 
 #include "bitstream/status.h"
 #include "codec/common/base/float_state.h"
+#include "codec/common/base/stop.h"
 
 namespace reeb {
 
-/// What `function` returns; where it throws, which only a lack of memory (or of threads) makes it
-/// do, kOutOfMemory.
+/// What `function` returns. Where it throws: kCancelled, if it was asked to stop, else
+/// kOutOfMemory, since nothing but a lack of memory (or of threads) makes it do so.
 template <class Function>
 Status guarded(Function&& function) noexcept {
   const FloatState state;
   try {
     return std::forward<Function>(function)();
+  } catch (const Stopped&) {
+    return Status::cancelled();
   } catch (...) {
     return Status::out_of_memory();
   }

@@ -23,7 +23,7 @@ Status decode_frames(const GroupTask& task, ExactFrames& out) {
   FrameCoder coder(surface.surface.graph,
                    start_positions(surface.surface.points(), surface.surface.order, surface.origin,
                                    surface.grid_step),
-                   sets, (h.flags & GroupHeader::kQuick) != 0, task.threads);
+                   sets, (h.flags & GroupHeader::kQuick) != 0, task.threads, task.stop);
   RepeatSyntax repeats;
   while (out.frame_count() < h.frame_count) {
     if (task.stop.requested()) return Status::cancelled();

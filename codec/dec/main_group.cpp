@@ -21,11 +21,14 @@ Status check_header(const GroupTask& task) {
 Status start_group(const GroupTask& task, GroupState& state) {
   if (!task.chunk.continues()) {
     state = start_closed_group(task.surface(), task.surface().points(), task.header().weak_prior(),
-                               task.threads);
+                               task.threads, task.stop);
     return {};
   }
   state = std::move(task.before);
-  if (state.coefficients != nullptr) return {};
+  if (state.coefficients != nullptr) {
+    state.coefficients->set_stop(task.stop);
+    return {};
+  }
   return Status::corrupt("a group continues one that is not there or of another profile");
 }
 
@@ -44,6 +47,7 @@ Status decode_basis(const GroupTask& task, const PredictionGraph& graph, GroupSt
   const uint32_t count = task.header().component_count + 1;
   Field field(graph, basis_field_options(), 1);
   std::swap(field.model(), state.basis_contexts);
+  field.set_stop(task.stop);
   field.expect(count);
   const bool whole = decode_field(task.chunk.basis, count, field, task.stop);
   std::swap(field.model(), state.basis_contexts);

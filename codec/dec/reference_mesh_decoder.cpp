@@ -16,7 +16,7 @@
 #include "codec/common/reference/reference_syntax.h"
 #include "codec/common/reference/vertex_order.h"
 #include "codec/dec/connectivity/connectivity_decoder.h"
-#include "entropy/interval_coder.h"
+#include "codec/dec/stoppable_decoder.h"
 
 namespace reeb {
 namespace {
@@ -47,7 +47,8 @@ Status read_sections(std::span<const uint8_t> bytes, const Limits& limits, MeshH
 
 /// `most`: triangles by edgebreaker, and corners of listed faces, that the bytes can hold.
 Status decode_state(const Sections& sections, const Limits& limits, uint64_t most, bool plain,
-                    MeshState& state, std::optional<TriangleTopology>& topology) {
+                    const StopToken& stop, MeshState& state,
+                    std::optional<TriangleTopology>& topology) {
   if (!sections.draco.empty()) {
     PointTriangles mesh;
     if (Status s = decode_connectivity(sections.draco, limits, most, mesh); !s.ok()) return s;
@@ -55,7 +56,7 @@ Status decode_state(const Sections& sections, const Limits& limits, uint64_t mos
     state.triangles = std::move(mesh.triangles);
   }
   if (!plain) topology.emplace(state.point_count, state.triangles);
-  IntervalDecoder coder(sections.rest);
+  StoppableDecoder coder(sections.rest, stop);
   return code_rest(coder, plain ? nullptr : &*topology, state,
                    {kMaxCornersPerFace * limits.max_faces, most});
 }
@@ -79,10 +80,12 @@ Status decode_plain_order(std::span<const uint8_t> bytes, const MeshWalk& walk,
 
 /// Positions and order of a plain mesh.
 Status decode_plain(const MeshHeader& h, const Sections& sections,
-                    std::span<const uint32_t> triangles, std::vector<int32_t>& grid,
-                    std::vector<uint32_t>& output_index) {
+                    std::span<const uint32_t> triangles, const StopToken& stop,
+                    std::vector<int32_t>& grid, std::vector<uint32_t>& output_index) {
   const MeshWalk walk = walk_mesh(h.vertex_count, triangles);
+  stop.check();
   if (Status s = decode_plain_positions(sections.positions, walk, grid); !s.ok()) return s;
+  stop.check();
   if ((h.flags & MeshHeader::kOrderKept) == 0) return {};
   output_index.assign(h.vertex_count, 0);
   return decode_plain_order(sections.order, walk, output_index);
@@ -91,7 +94,8 @@ Status decode_plain(const MeshHeader& h, const Sections& sections,
 /// `topology`: of the edgebreaker's triangles and points, which mostly are all triangles and all
 /// vertices. Leaves the order of a plain mesh, which is there already.
 Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
-                    std::span<const uint32_t> triangles, std::optional<TriangleTopology>& topology,
+                    std::span<const uint32_t> triangles, const StopToken& stop,
+                    std::optional<TriangleTopology>& topology,
                     std::vector<uint32_t>& output_index) {
   if ((h.flags & MeshHeader::kOrderKept) == 0) {
     if (!bytes.empty()) return Status::corrupt("mesh: an order where none is kept");
@@ -104,14 +108,15 @@ Status decode_order(const MeshHeader& h, std::span<const uint8_t> bytes,
                     std::equal(triangles.begin(), triangles.end(), topology->triangles.begin(),
                                topology->triangles.end());
   if (!same) topology.emplace(h.vertex_count, triangles);
-  IntervalDecoder coder(bytes);
+  StoppableDecoder coder(bytes, stop);
   return code_vertex_order(coder, *topology, output_index);
 }
 
 /// Puts the faces into the order of the input, where the stream keeps it.
-Status decode_face_order(const MeshHeader& h, std::span<const uint8_t> bytes, Connectivity& faces) {
+Status decode_face_order(const MeshHeader& h, std::span<const uint8_t> bytes, const StopToken& stop,
+                         Connectivity& faces) {
   if ((h.flags & MeshHeader::kFaceOrderKept) == 0) return {};
-  IntervalDecoder coder(bytes);
+  StoppableDecoder coder(bytes, stop);
   const FaceOrderContext context(faces);
   FaceOrder order;
   if (Status s = code_face_order(coder, context, order); !s.ok()) return s;
@@ -128,7 +133,8 @@ uint64_t announced_triangles(std::span<const uint8_t> bytes) {
   return connectivity_triangle_count(in.take(h.draco_bytes));
 }
 
-Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out) {
+Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out,
+                        const StopToken& stop) {
   out = {};
   MeshHeader h;
   Sections sections;
@@ -139,20 +145,20 @@ Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, Re
   out.plain = (h.flags & MeshHeader::kPlain) != 0;
   const uint64_t most = kMeshElementsPerByte * bytes.size();
   std::optional<TriangleTopology> topology;
-  if (Status s = decode_state(sections, limits, most, out.plain, state, topology); !s.ok())
+  if (Status s = decode_state(sections, limits, most, out.plain, stop, state, topology); !s.ok())
     return s;
   out.vertex_count = h.vertex_count;
   out.triangles = collect_triangles(state);
   if (out.plain) {
-    Status s = decode_plain(h, sections, out.triangles, state.grid, out.output_index);
+    Status s = decode_plain(h, sections, out.triangles, stop, state.grid, out.output_index);
     if (!s.ok()) return s;
   }
-  if (Status s = decode_order(h, sections.order, out.triangles, topology, out.output_index);
+  if (Status s = decode_order(h, sections.order, out.triangles, stop, topology, out.output_index);
       !s.ok())
     return s;
   out.connectivity = collect_faces(state, out.output_index);
   out.grid = std::move(state.grid);
-  return decode_face_order(h, sections.faces, out.connectivity);
+  return decode_face_order(h, sections.faces, stop, out.connectivity);
 }
 
 }  // namespace reeb

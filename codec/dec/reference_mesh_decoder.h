@@ -6,6 +6,7 @@
 
 #include "bitstream/limits.h"
 #include "bitstream/status.h"
+#include "codec/common/base/stop.h"
 #include "codec/common/reference/reference_mesh.h"
 
 namespace reeb {
@@ -15,7 +16,8 @@ namespace reeb {
 uint64_t announced_triangles(std::span<const uint8_t> bytes);
 
 /// Decodes what `encode_reference` made. The bytes may be anything; memory and time stay within
-/// what `limits` and their length justify.
-Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out);
+/// what `limits` and their length justify. Throws Stopped where `stop` is requested.
+Status decode_reference(std::span<const uint8_t> bytes, const Limits& limits, ReferenceMesh& out,
+                        const StopToken& stop = {});
 
 }  // namespace reeb

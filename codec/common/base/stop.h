@@ -6,6 +6,9 @@
 
 namespace reeb {
 
+/// Thrown where a computation ends early; the decoder's calls give kCancelled then.
+struct Stopped {};
+
 /// True from the first request after its construction on; the default one never is.
 class StopToken {
  public:
@@ -15,6 +18,10 @@ class StopToken {
       : requests_(&requests), seen_(requests.load()) {}
 
   bool requested() const { return requests_ != nullptr && requests_->load() != seen_; }
+  /// Throws Stopped where it is requested. Cheap enough for every vertex.
+  void check() const {
+    if (requested()) throw Stopped();
+  }
 
  private:
   const std::atomic<uint32_t>* requests_ = nullptr;

@@ -68,13 +68,14 @@ class Contraction {
     }
   }
 
-  SurfaceGraph run() {
+  SurfaceGraph run(const StopToken& stop) {
     std::vector<uint32_t> isolated;
     for (uint32_t v = 0; v < none_; ++v) (valence_[v].size == 0 ? isolated : alive_).push_back(v);
     out_.graph.rows.resize(none_);
     first_free_ = static_cast<uint32_t>(alive_.size());
     TryBudget budget(alive_.size());
     while (alive_.size() > kBaseSize && budget.take(alive_.size())) {
+      stop.check();
       const size_t before = alive_.size();
       run_sweep();
       if (!worth_another_sweep(before - alive_.size(), alive_.size())) break;
@@ -233,8 +234,9 @@ class Contraction {
 
 }  // namespace
 
-SurfaceGraph contract_mesh(uint32_t vertex_count, std::span<const uint32_t> triangles) {
-  return Contraction(vertex_count, triangles).run();
+SurfaceGraph contract_mesh(uint32_t vertex_count, std::span<const uint32_t> triangles,
+                           const StopToken& stop) {
+  return Contraction(vertex_count, triangles).run(stop);
 }
 
 }  // namespace reeb

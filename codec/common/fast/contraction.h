@@ -13,6 +13,7 @@ namespace reeb {
 /// other
 /// neighbours are those of the moment of contraction; no links, priors, precisions and steps (see
 /// weigh_rows). Time O(V + triangles).
-SurfaceGraph contract_mesh(uint32_t vertex_count, std::span<const uint32_t> triangles);
+SurfaceGraph contract_mesh(uint32_t vertex_count, std::span<const uint32_t> triangles,
+                           const StopToken& stop = {});
 
 }  // namespace reeb

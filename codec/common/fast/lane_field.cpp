@@ -55,8 +55,8 @@ LaneField::LaneField(const PredictionGraph& graph, const LaneStart& start, bool 
 }
 
 // Values and magnitudes stay: a row sees but those of rows before it, which are new.
-void LaneField::begin_block() {
-  if (start_ != nullptr && blocks_ > 0 && blocks_ <= kLearnedBlocks) learn();
+void LaneField::begin_block(const StopToken& stop) {
+  if (start_ != nullptr && blocks_ > 0 && blocks_ <= kLearnedBlocks) learn(stop);
   std::fill(std::begin(block_.running), std::end(block_.running), 0u);
   std::fill(std::begin(block_.before), std::end(block_.before), 0u);
 }
@@ -85,7 +85,7 @@ void LaneField::end_block(uint32_t lanes, Planes& planes) {
 }
 
 // The more is known, the worse a row must have been predicted to be worth the time.
-void LaneField::learn() {
+void LaneField::learn(const StopToken& stop) {
   constexpr uint32_t kMinHistory = 4;
   std::vector<uint32_t> badly;
   for (uint32_t r = 0; r < rows(); ++r) {
@@ -99,7 +99,7 @@ void LaneField::learn() {
   } else {
     task.first_values = first_values_.data();
   }
-  learn_weights(task, badly, weights_);
+  learn_weights(task, badly, weights_, stop);
   if (blocks_ == 1) keep_first_values();
 }
 
@@ -117,7 +117,7 @@ bool decode_lane_field(std::span<const uint8_t> section, uint32_t components, La
   if (!decoder.open(section, std::min(kRansLanes, components))) return false;
   for (uint32_t k = 0, lanes = 0; k < components; k += lanes) {
     lanes = lanes_of_block(k, components);
-    field.begin_block();
+    field.begin_block(stop);
     field.decode_rows(decoder, lanes);
     field.end_block(lanes, planes);
     if (decoder.overrun() || stop.requested()) return false;

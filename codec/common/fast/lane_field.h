@@ -38,8 +38,8 @@ class LaneField {
   LaneField(LaneField&&) = default;
   LaneField(const LaneField&) = delete;  // the block points into its field
 
-  /// Starts the next block.
-  void begin_block();
+  /// Starts the next block. Throws Stopped where `stop` is requested.
+  void begin_block(const StopToken& stop = {});
   /// What the row's neighbours tell of the row.
   LaneGuess guess(uint32_t row) const { return kernels_.guess(block_, row); }
   /// Takes the row's residuals, the guess being that of `guess`.
@@ -59,7 +59,7 @@ class LaneField {
 
  private:
   /// Finds new weights for the rows that were predicted badly.
-  void learn();
+  void learn(const StopToken& stop);
   void keep_first_values();
 
   const PredictionGraph& graph_;

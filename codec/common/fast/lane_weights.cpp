@@ -7,7 +7,7 @@
 
 namespace reeb {
 
-LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points) {
+LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points, const StopToken& stop) {
   const uint32_t rows = surface.graph.size();
   LaneStart out;
   out.points.resize((size_t{rows} + 1) * kPointStride);
@@ -18,14 +18,16 @@ LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points) {
   out.weights.resize(size_t{rows} * kMaxNeighbours);
   std::vector<uint32_t> all(rows);
   std::iota(all.begin(), all.end(), 0u);
-  learn_weights({.rows = surface.graph.rows.data(), .points = out.points.data()}, all, out.weights);
+  learn_weights({.rows = surface.graph.rows.data(), .points = out.points.data()}, all, out.weights,
+                stop);
   return out;
 }
 
 void learn_weights(const LaneWeightTask& task, std::span<const uint32_t> rows,
-                   std::vector<float>& weights) {
+                   std::vector<float>& weights, const StopToken& stop) {
   const LaneWeightKernels& kernels = fastest_kernels<LaneWeightKernels>();
   for (size_t first = 0; first < rows.size(); first += kWeightRows) {
+    stop.check();
     uint32_t row[kWeightRows];
     float* out[kWeightRows];
     for (size_t l = 0; l < kWeightRows; ++l) {

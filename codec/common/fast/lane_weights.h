@@ -21,10 +21,12 @@ struct LaneStart {
     return (rows * (kPointStride + kMaxNeighbours) + kPointStride) * sizeof(float);
   }
 };
-LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points);
+LaneStart lane_start(const SurfaceGraph& surface, const GridPoints& points,
+                     const StopToken& stop = {});
 
-/// Finds the weights of `rows` anew; see LaneWeightTask.
+/// Finds the weights of `rows` anew; see LaneWeightTask. Throws Stopped where
+/// `stop` is requested.
 void learn_weights(const LaneWeightTask& task, std::span<const uint32_t> rows,
-                   std::vector<float>& weights);
+                   std::vector<float>& weights, const StopToken& stop = {});
 
 }  // namespace reeb

@@ -9,10 +9,10 @@ namespace reeb {
 
 namespace {
 
-SurfaceGraph graph_of(const ReferenceMesh& mesh) {
+SurfaceGraph graph_of(const ReferenceMesh& mesh, const StopToken& stop) {
   const GridPoints points(mesh.grid);
-  if (!mesh.plain) return build_surface_graph(points, mesh.triangles);
-  SurfaceGraph out = contract_mesh(mesh.vertex_count, mesh.triangles);
+  if (!mesh.plain) return build_surface_graph(points, mesh.triangles, stop);
+  SurfaceGraph out = contract_mesh(mesh.vertex_count, mesh.triangles, stop);
   weigh_rows(points, out);
   return out;
 }
@@ -25,8 +25,8 @@ struct Surface::Lanes {
 };
 
 Surface::Surface() : lanes_(std::make_unique<Lanes>()) {}
-Surface::Surface(ReferenceMesh& mesh)
-    : SurfaceGraph(graph_of(mesh)),
+Surface::Surface(ReferenceMesh& mesh, const StopToken& stop)
+    : SurfaceGraph(graph_of(mesh, stop)),
       grid(std::move(mesh.grid)),
       plain(mesh.plain),
       lanes_(std::make_unique<Lanes>()) {}
@@ -34,8 +34,8 @@ Surface::Surface(Surface&&) noexcept = default;
 Surface& Surface::operator=(Surface&&) noexcept = default;
 Surface::~Surface() = default;
 
-const LaneStart& Surface::lanes() const {
-  std::call_once(lanes_->made, [this] { lanes_->start = lane_start(*this, points()); });
+const LaneStart& Surface::lanes(const StopToken& stop) const {
+  std::call_once(lanes_->made, [&] { lanes_->start = lane_start(*this, points(), stop); });
   return lanes_->start;
 }
 

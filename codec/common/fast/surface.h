@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "codec/common/base/stop.h"
 #include "codec/common/fast/lane_weights.h"
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/reference/reference_mesh.h"
@@ -15,8 +16,8 @@ namespace reeb {
 /// threads.
 struct Surface : SurfaceGraph {
   Surface();
-  /// Takes the grid out of `mesh`.
-  explicit Surface(ReferenceMesh& mesh);
+  /// Takes the grid out of `mesh`. Throws Stopped where `stop` is requested.
+  explicit Surface(ReferenceMesh& mesh, const StopToken& stop = {});
   Surface(Surface&&) noexcept;
   Surface& operator=(Surface&&) noexcept;
   ~Surface();
@@ -27,7 +28,8 @@ struct Surface : SurfaceGraph {
   uint32_t rows() const { return graph.size(); }
   GridPoints points() const { return GridPoints(grid); }
   /// What fields of the fast profile start from; made when first asked for.
-  const LaneStart& lanes() const;
+  /// Throws Stopped where `stop` is requested.
+  const LaneStart& lanes(const StopToken& stop = {}) const;
 
  private:
   struct Lanes;

@@ -35,6 +35,9 @@ class Field {
  public:
   Field(const PredictionGraph& graph, const FieldOptions& options, unsigned threads);
 
+  /// From now on, finding weights throws Stopped where it is requested.
+  void set_stop(const StopToken& stop) { estimator_.set_stop(stop); }
+
   /// Weights from the reference positions; call before the first component, surface graphs only.
   void learn_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 

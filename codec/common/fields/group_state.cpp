@@ -3,10 +3,11 @@
 namespace reeb {
 
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              bool weak_prior, unsigned threads) {
+                              bool weak_prior, unsigned threads, const StopToken& stop) {
   GroupState state;
   state.coefficients =
       std::make_unique<Field>(surface.graph, surface_field_options(weak_prior), threads);
+  state.coefficients->set_stop(stop);
   state.coefficients->learn_reference(points, surface.order);
   return state;
 }

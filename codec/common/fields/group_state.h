@@ -18,6 +18,6 @@ struct GroupState {
 /// State of a group of the main profile that starts from the reference mesh alone; `weak_prior` as
 /// in its header.
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              bool weak_prior, unsigned threads);
+                              bool weak_prior, unsigned threads, const StopToken& stop = {});
 
 }  // namespace reeb

@@ -39,10 +39,12 @@ void init_row(DisplacementBatch& batch, uint32_t place, uint32_t r, uint32_t ter
 
 DisplacementPredictor::DisplacementPredictor(const PredictionGraph& graph,
                                              const std::vector<float>& start,
-                                             const DisplacementOptions& options, unsigned threads)
+                                             const DisplacementOptions& options, unsigned threads,
+                                             const StopToken& stop)
     : graph_(graph),
       options_(options),
       threads_(threads),
+      stop_(stop),
       batches_(std::make_unique<Batches>()),
       weights_(size_t{graph.size()} * kMaxNeighbours, 0.0f),
       position_(size_t{graph.size()} * 4),
@@ -117,7 +119,10 @@ void DisplacementPredictor::learn() {
                                    squared_error_.data()};
   const auto count = static_cast<uint32_t>(batches_->items.size());
   parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t b = begin; b < end; ++b) batches_->kernels.learn(batches_->items[b], frame);
+    for (uint32_t b = begin; b < end; ++b) {
+      stop_.check();
+      batches_->kernels.learn(batches_->items[b], frame);
+    }
   });
 }
 
@@ -126,6 +131,7 @@ void DisplacementPredictor::solve() {
   const auto count = static_cast<uint32_t>(batches_->items.size());
   parallel_ranges(count, threads_, [&](uint32_t begin, uint32_t end) {
     for (uint32_t b = begin; b < end; ++b) {
+      stop_.check();
       float* out[kRowsAtOnce];
       for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
         const uint32_t row = b * kRowsAtOnce + l;

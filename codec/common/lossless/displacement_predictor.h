@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "codec/common/base/stop.h"
 #include "codec/common/prediction/prediction_graph.h"
 
 namespace reeb {
@@ -28,7 +29,8 @@ class DisplacementPredictor {
  public:
   /// `graph` must outlive the predictor; `start`: [row][xyz], the frame before the first.
   DisplacementPredictor(const PredictionGraph& graph, const std::vector<float>& start,
-                        const DisplacementOptions& options, unsigned threads);
+                        const DisplacementOptions& options, unsigned threads,
+                        const StopToken& stop = {});
   ~DisplacementPredictor();
   DisplacementPredictor(const DisplacementPredictor&) = delete;
   DisplacementPredictor& operator=(const DisplacementPredictor&) = delete;
@@ -56,6 +58,7 @@ class DisplacementPredictor {
   const PredictionGraph& graph_;
   DisplacementOptions options_;
   unsigned threads_;
+  StopToken stop_;
   std::unique_ptr<Batches> batches_;
   std::vector<float> weights_;               ///< [row][kMaxNeighbours]
   std::vector<float> position_;              ///< [row][4], of the frame before or this one

@@ -23,9 +23,10 @@ using FrameGrids = std::array<FrameGrid, 3>;
 class FrameCoder {
  public:
   /// `quick`: fewer neighbours that are learned from less often, and no mixing.
-  /// `graph` must outlive the coder; `start`: [row][xyz] of the reference mesh, finite.
+  /// `graph` must outlive the coder; `start`: [row][xyz] of the reference mesh, finite. Coding
+  /// throws Stopped where `stop` is requested.
   FrameCoder(const PredictionGraph& graph, const std::vector<float>& start, const NumberSets& sets,
-             bool quick, unsigned threads);
+             bool quick, unsigned threads, const StopToken& stop = {});
 
   /// Codes the next frame, [row][xyz]: reads it with encoders, writes it with decoders; `grids` of
   /// the axes whose sets are those of frames, as an encoder wants them. False when a decoder meets
@@ -58,6 +59,7 @@ class FrameCoder {
   template <class Bits, class Raw, class Model>
   bool code_rows(Bits& bits, Raw& raw, Model& model, float* frame) {
     for (uint32_t row = 0; row < graph_.size(); ++row) {
+      stop_.check();
       if (!code_row(bits, raw, model, row, frame + size_t{row} * 3)) return false;
     }
     return true;
@@ -114,6 +116,7 @@ class FrameCoder {
   static constexpr uint32_t kStillLimit = 1000;
 
   const PredictionGraph& graph_;
+  StopToken stop_;
   NumberSets sets_;
   std::array<bool, 3> by_frame_;
   FrameGrids grids_;  ///< of the frame, of the axes whose sets are those of frames

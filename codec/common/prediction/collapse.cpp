@@ -99,14 +99,14 @@ class Collapser {
     far_.resize(by_eights(kMaxNear * longest + 1));
   }
 
-  CollapseSequence run() {
+  CollapseSequence run(const StopToken& stop) {
     CollapseSequence out;
     for (uint32_t v = 0; v < points_.size(); ++v)
       (mesh_.valence(v) == 0 ? out.isolated : alive_).push_back(v);
     out.collapses.reserve(alive_.size());
     TryBudget budget(alive_.size());
     while (alive_.size() > kBaseSize && budget.take(alive_.size())) {
-      const size_t removed = run_sweep(out.collapses);
+      const size_t removed = run_sweep(stop, out.collapses);
       if (!worth_another_sweep(removed, alive_.size())) break;
     }
     out.base = std::move(alive_);
@@ -114,11 +114,13 @@ class Collapser {
   }
 
  private:
-  size_t run_sweep(std::vector<Collapse>& out) {
+  size_t run_sweep(const StopToken& stop, std::vector<Collapse>& out) {
     ++sweep_;
     const size_t before = out.size();
-    for (const uint64_t key : order_.sort(alive_, mesh_))
+    for (const uint64_t key : order_.sort(alive_, mesh_)) {
+      stop.check();
       try_vertex(static_cast<uint32_t>(key), out);
+    }
     for (size_t i = before; i < out.size(); ++i) locked_[out[i].vertex] = kGone;
     size_t kept = 0;
     for (const uint32_t v : alive_) {
@@ -224,8 +226,8 @@ class Collapser {
 }  // namespace
 
 CollapseSequence collapse_mesh(const GridPoints& points, std::span<const uint32_t> triangles,
-                               uint32_t max_extra) {
-  return Collapser(points, triangles, max_extra).run();
+                               uint32_t max_extra, const StopToken& stop) {
+  return Collapser(points, triangles, max_extra).run(stop);
 }
 
 }  // namespace reeb

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/common/base/fixed_list.h"
+#include "codec/common/base/stop.h"
 #include "codec/common/mesh/grid.h"
 
 namespace reeb {
@@ -29,6 +30,6 @@ struct CollapseSequence {
 /// 16) bounds `extra`. Integer keys only, ties by index: the same on every machine. Time O(V log
 /// V).
 CollapseSequence collapse_mesh(const GridPoints& points, std::span<const uint32_t> triangles,
-                               uint32_t max_extra);
+                               uint32_t max_extra, const StopToken& stop = {});
 
 }  // namespace reeb

@@ -12,6 +12,7 @@
 
 #include "codec/common/base/item_lists.h"
 #include "codec/common/base/raw_vector.h"
+#include "codec/common/base/stop.h"
 #include "codec/common/mesh/grid.h"
 
 namespace reeb {
@@ -56,7 +57,8 @@ void weigh_rows(const GridPoints& points, SurfaceGraph& surface);
 
 /// Coarse-to-fine graph of the reference mesh. Vertices without triangles come last, by nearness in
 /// space.
-SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles);
+SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles,
+                                 const StopToken& stop = {});
 
 /// Dyadic hierarchy of `frames` times with three axes each: row r of the graph is (time, axis).
 struct TemporalGraph {

@@ -59,9 +59,11 @@ struct Gathered {
 
 class SurfaceGraphBuilder {
  public:
-  SurfaceGraphBuilder(const GridPoints& points, std::span<const uint32_t> triangles)
+  SurfaceGraphBuilder(const GridPoints& points, std::span<const uint32_t> triangles,
+                      const StopToken& stop)
       : points_(points),
-        sequence_(collapse_mesh(points, triangles, kMaxExtra)),
+        stop_(stop),
+        sequence_(collapse_mesh(points, triangles, kMaxExtra, stop)),
         boundary_(points.size(), false) {
     order_.reserve(points.size());
     append_by_strides(points, sequence_.base, order_);
@@ -78,6 +80,7 @@ class SurfaceGraphBuilder {
     SurfaceGraph out;
     out.graph.rows.resize(points_.size());
     for (uint32_t r = 0; r < order_.size(); ++r) {
+      stop_.check();
       Gathered gathered = gather(r);
       complete(order_[r], nearest, gathered);
       fill_row(r, gathered, out.graph.rows[r]);
@@ -144,6 +147,7 @@ class SurfaceGraphBuilder {
   }
 
   const GridPoints& points_;
+  const StopToken& stop_;
   CollapseSequence sequence_;
   std::vector<bool> boundary_;
   std::vector<uint32_t> order_;
@@ -204,9 +208,10 @@ void weigh_rows(const GridPoints& points, SurfaceGraph& surface) {
   assign_steps(surface.graph);
 }
 
-SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles) {
+SurfaceGraph build_surface_graph(const GridPoints& points, std::span<const uint32_t> triangles,
+                                 const StopToken& stop) {
   if (points.size() == 0) return {};
-  return SurfaceGraphBuilder(points, triangles).build();
+  return SurfaceGraphBuilder(points, triangles, stop).build();
 }
 
 }  // namespace reeb

@@ -74,6 +74,7 @@ void WeightEstimator::observe_reference(const GridPoints& points,
   std::vector<uint32_t> rows(graph_.size());
   std::iota(rows.begin(), rows.end(), 0u);
   for (uint32_t first = 0; first < graph_.size(); first += kRowsAtOnce) {
+    stop_.check();
     uint32_t eight[kRowsAtOnce];
     for (uint32_t l = 0; l < kRowsAtOnce; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
     observe_rows(graph_, points, order, eight, kernels_, equations_);
@@ -138,8 +139,10 @@ void WeightEstimator::solve(uint32_t misses, const Planes& planes) {
   const std::vector<uint32_t> rows = take_missed(misses);
   const auto eights = static_cast<uint32_t>((rows.size() + kRowsAtOnce - 1) / kRowsAtOnce);
   parallel_ranges(eights, threads_, [&](uint32_t begin, uint32_t end) {
-    for (uint32_t first = begin * kRowsAtOnce; first < end * kRowsAtOnce; first += kRowsAtOnce)
+    for (uint32_t first = begin * kRowsAtOnce; first < end * kRowsAtOnce; first += kRowsAtOnce) {
+      stop_.check();
       solve_eight(rows, first, observed);
+    }
   });
 }
 

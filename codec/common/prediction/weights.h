@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "codec/common/base/batches.h"
+#include "codec/common/base/stop.h"
 #include "codec/common/mesh/grid.h"
 #include "codec/common/prediction/prediction_graph.h"
 #include "codec/common/prediction/weight_kernels.h"
@@ -35,6 +36,9 @@ class WeightEstimator {
   WeightEstimator(const PredictionGraph& graph, const WeightOptions& options, unsigned threads);
   WeightEstimator(const WeightEstimator& other) = default;
   WeightEstimator& operator=(const WeightEstimator&) = delete;
+
+  /// From now on, finding weights throws Stopped where it is requested.
+  void set_stop(const StopToken& stop) { stop_ = stop; }
 
   /// Learns from the reference positions, taken as exact to half a grid unit and to the surface's
   /// bending, and solves for all rows. `order[row]` is the row's point. Pre-condition: nothing is
@@ -87,6 +91,7 @@ class WeightEstimator {
   const PredictionGraph& graph_;
   WeightOptions options_;
   unsigned threads_;
+  StopToken stop_;
   WeightKernels kernels_ = fastest_kernels<WeightKernels>();
   BatchVector<RowEquations> equations_;  ///< none before something is learned
   std::vector<RowTarget> targets_;       ///< none where weights sum to one

@@ -14,7 +14,7 @@
 #include "codec/common/base/attributes.h"
 #include "codec/dec/attributes/attribute_decoder.h"
 #include "codec/dec/group_memory.h"
-#include "entropy/interval_coder.h"
+#include "codec/dec/stoppable_decoder.h"
 
 namespace reeb {
 
@@ -48,24 +48,24 @@ void store(ValueType type, double scale, float coordinate, uint8_t* to) {
 
 }  // namespace
 
-AttributeSurface attribute_surface(Sites sites) {
+AttributeSurface attribute_surface(Sites sites, const StopToken& stop) {
   AttributeSurface out;
   ReferenceMesh mesh;
   mesh.vertex_count = sites.mesh.count;
   mesh.grid = std::move(sites.mesh.grid);
   mesh.triangles = std::move(sites.mesh.triangles);
-  out.surface.surface = Surface(mesh);
+  out.surface.surface = Surface(mesh, stop);
   out.surface.output = out.surface.surface.order;
   out.of_element = std::move(sites.of_element);
   return out;
 }
 
-Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface, Sites& out,
-                              std::vector<float>& corrections) {
+Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface,
+                              const StopToken& stop, Sites& out, std::vector<float>& corrections) {
   AttributeBody body;
   std::span<const uint8_t> section;
   if (Status s = read_attribute_body(chunk, body, section); !s.ok()) return s;
-  IntervalDecoder coder(section);
+  StoppableDecoder coder(section, stop);
   out = code_sites(coder, chunk.header.domain, surface, [](uint32_t, uint32_t) { return false; });
   if (!body.channels.empty()) {
     std::vector<uint32_t> integers;

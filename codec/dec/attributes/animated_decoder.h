@@ -20,12 +20,12 @@ struct AttributeSurface {
 };
 
 /// Rows of the surface graph are put out at their sites; all start from 0.
-AttributeSurface attribute_surface(Sites sites);
+AttributeSurface attribute_surface(Sites sites, const StopToken& stop = {});
 
 /// Sites of an animated attribute, and of computed normals what turns them in all frames, [site][u,
 /// v]; `chunk` is loaded.
-Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface, Sites& out,
-                              std::vector<float>& corrections);
+Status decode_attribute_sites(const AttributeChunk& chunk, const ShotSurface& surface,
+                              const StopToken& stop, Sites& out, std::vector<float>& corrections);
 /// Bytes that takes at most.
 uint64_t attribute_surface_memory(uint64_t elements);
 

@@ -7,7 +7,7 @@
 #include "bitstream/syntax.h"
 #include "codec/common/attributes/attribute_syntax.h"
 #include "codec/dec/guard.h"
-#include "entropy/interval_coder.h"
+#include "codec/dec/stoppable_decoder.h"
 
 namespace reeb {
 
@@ -125,13 +125,13 @@ Status describe_attribute(const AttributeChunk& chunk, Attribute& out) {
 }
 
 Status decode_static_attribute(const AttributeChunk& chunk, const ShotSurface& surface,
-                               Attribute& out) {
+                               const StopToken& stop, Attribute& out) {
   if (Status s = describe_attribute(chunk, out); !s.ok()) return s;
   const AttributeHeader& h = chunk.header;
   AttributeBody body;
   std::span<const uint8_t> section;
   if (Status s = read_attribute_body(chunk, body, section); !s.ok()) return s;
-  IntervalDecoder coder(section);
+  StoppableDecoder coder(section, stop);
   Sites sites;
   if (!is_category(h, body))
     sites = code_sites(coder, h.domain, surface, [](uint32_t, uint32_t) { return false; });

@@ -8,6 +8,7 @@
 #include "bitstream/status.h"
 #include "codec/common/attributes/site_mesh.h"
 #include "codec/common/base/attributes.h"
+#include "codec/common/base/stop.h"
 #include "codec/common/reference/reference_mesh.h"
 
 namespace reeb {
@@ -39,6 +40,6 @@ Status describe_attribute(const AttributeChunk& chunk, Attribute& out);
 
 /// Decodes a static attribute; the body may be anything.
 Status decode_static_attribute(const AttributeChunk& chunk, const ShotSurface& surface,
-                               Attribute& out);
+                               const StopToken& stop, Attribute& out);
 
 }  // namespace reeb

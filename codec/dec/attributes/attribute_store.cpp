@@ -48,14 +48,15 @@ Status AttributeStore::open_sites(const AttributeChunk& chunk, const ShotSurface
                                   KeptAttribute& kept) {
   if (Status s = describe_attribute(chunk, kept.attribute); !s.ok()) return s;
   Sites sites;
-  if (Status s = decode_attribute_sites(chunk, surface, sites, kept.corrections); !s.ok()) return s;
+  if (Status s = decode_attribute_sites(chunk, surface, stop_, sites, kept.corrections); !s.ok())
+    return s;
   if (chunk.header.computed()) kept.sites = sites.mesh;
   if (!chunk.header.in_groups()) {
     kept.surface.of_element = std::move(sites.of_element);
     return {};
   }
   if (Status s = grow(attribute_surface_memory(sites.mesh.count), kept.lease); !s.ok()) return s;
-  kept.surface = attribute_surface(std::move(sites));
+  kept.surface = attribute_surface(std::move(sites), stop_);
   return {};
 }
 
@@ -98,7 +99,7 @@ Status AttributeStore::get(const AttributeChunk& wanted, const ReferenceChunk& r
     return {};
   }
   std::shared_ptr<const OpenShot> shot;
-  if (Status s = groups_.get_shot(reference, shot); !s.ok()) return s;
+  if (Status s = groups_.get_shot(reference, stop_, shot); !s.ok()) return s;
   auto kept = std::make_shared<KeptAttribute>();
   AttributeChunk chunk;
   std::vector<uint8_t> buffer;
@@ -110,7 +111,7 @@ Status AttributeStore::get(const AttributeChunk& wanted, const ReferenceChunk& r
   kept->header = chunk.header;
   if (Status status = chunk.header.animated()
                           ? open_sites(chunk, surface, *kept)
-                          : decode_static_attribute(chunk, surface, kept->attribute);
+                          : decode_static_attribute(chunk, surface, stop_, kept->attribute);
       !status.ok())
     return status;
   kept->lease.shrink(kept->bytes());

@@ -42,6 +42,9 @@ class AttributeStore {
   AttributeStore(ByteSource& source, MemoryAccount& account, GroupStore& groups)
       : source_(source), account_(account), groups_(groups) {}
 
+  /// From now on, calls throw Stopped where it is requested.
+  void set_stop(const StopToken& stop) { stop_ = stop; }
+
   /// Values of a static attribute, sites of an animated one; `reference`: of its shot.
   Status get(const AttributeChunk& chunk, const ReferenceChunk& reference,
              std::shared_ptr<const KeptAttribute>& out);
@@ -74,6 +77,7 @@ class AttributeStore {
   ByteSource& source_;
   MemoryAccount& account_;
   GroupStore& groups_;
+  StopToken stop_;
   std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<KeptAttribute>> kept_;
   /// By index, the one used last.
   std::map<uint32_t, std::shared_ptr<const KeptAttributeGroup>> groups_kept_;

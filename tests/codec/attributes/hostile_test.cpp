@@ -165,7 +165,7 @@ TEST_CASE("bodies of attributes that make no sense are refused", "[attributes][h
     chunk.header = header;
     chunk.body = bytes;
     Attribute out;
-    return decode_static_attribute(chunk, surface, out).code();
+    return decode_static_attribute(chunk, surface, {}, out).code();
   };
   CHECK(decode({channel, channel}, Bytes(64)) == StatusCode::kOk);
   CHECK(decode({channel}, Bytes(64)) == StatusCode::kCorrupt);

@@ -189,10 +189,10 @@ TEST_CASE("a group decoded ahead is there when it is asked for", "[group_store]"
 TEST_CASE("faces of a shot are decoded once and stay", "[group_store]") {
   Opened o(stream(0));
   std::shared_ptr<ShotFaces> faces, again;
-  REQUIRE(o.store.get_faces(o.container.references[0], faces).ok());
+  REQUIRE(o.store.get_faces(o.container.references[0], {}, faces).ok());
   CHECK(faces->connectivity.face_sizes.size() == torus(18, 11).connectivity.face_sizes.size());
   o.get(4);
-  REQUIRE(o.store.get_faces(o.container.references[0], again).ok());
+  REQUIRE(o.store.get_faces(o.container.references[0], {}, again).ok());
   CHECK(again == faces);
   CHECK(o.get(4)->shot->faces == faces);
 }
