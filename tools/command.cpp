@@ -48,6 +48,22 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
       ->group("Running");
 }
 
+void add_memory_limit_option(CLI::App& command, uint64_t& bytes) {
+  command
+      .add_option_function<std::string>(
+          "--memory-limit",
+          [&bytes](const std::string& text) {
+            double value = 0;
+            const std::string bad = parse_byte_count(text, value);
+            if (!bad.empty()) throw CLI::ValidationError("--memory-limit", bad);
+            bytes = static_cast<uint64_t>(std::min(value, 0x1p62));
+          },
+          "Bytes of memory that decoding a .reeb file may take; suffixes k, M, G, KiB, MiB, GiB; "
+          "default 4GiB")
+      ->type_name("BYTES")
+      ->group("Running");
+}
+
 std::string check_positive(const std::string& text) {
   double value = 0;
   std::string rest;

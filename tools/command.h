@@ -31,6 +31,9 @@ void add_console_options(CLI::App& command, ConsoleOptions& options);
 /// -T/--threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 
+/// --memory-limit, of commands that decode; `bytes` has the default.
+void add_memory_limit_option(CLI::App& command, uint64_t& bytes);
+
 /// Check of an option: a number above 0, or not below it. Unlike the library's own, they say so.
 std::string check_positive(const std::string& text);
 std::string check_not_negative(const std::string& text);

@@ -29,6 +29,7 @@ struct Options {
   bool allow_gaps = false;
   bool keep_going = false;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -72,9 +73,12 @@ struct Side {
 
 Status load(const Options& o, const std::vector<std::string>& names, Console& console, Side& side) {
   side.name = names.back();
-  Status status = read_sequence(
-      names, {.threads = o.threads, .allow_gaps = o.allow_gaps, .progress = console.bar("reading")},
-      side.sequence, side.report);
+  Status status = read_sequence(names,
+                                {.threads = o.threads,
+                                 .max_memory = o.max_memory,
+                                 .allow_gaps = o.allow_gaps,
+                                 .progress = console.bar("reading")},
+                                side.sequence, side.report);
   if (!status.ok()) return status;
   console.say_all(side.report.notes);
   side.units = static_cast<double>(vertex_frames(side.sequence));
@@ -328,6 +332,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME=E")
       ->group("Tolerance (exit code 3 beyond)");
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

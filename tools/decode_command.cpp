@@ -9,6 +9,7 @@
 #include "tools/frame_selection.h"
 #include "tools/io/file_bytes.h"
 #include "tools/io/point_cache.h"
+#include "tools/io/read_sequence.h"
 #include "tools/io/standard_output.h"
 #include "tools/io/write_sequence.h"
 #include "tools/text.h"
@@ -27,6 +28,7 @@ struct Options {
   bool overwrite = false;
   bool keep_going = false;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -64,7 +66,7 @@ class StreamWriter {
 
  private:
   Status named(const Status& status) const {
-    return {status.code(), options_.input + ": " + status.message()};
+    return stream_failure(options_.input, status, options_.max_memory);
   }
   std::string missing_text() const {
     return describe_missing(options_.input, missing_, decoder_.info().total_frames);
@@ -184,9 +186,11 @@ int run(const Options& o) {
   if (!status.ok()) return fail(console, status);
   const std::string_view text = file.view();
   std::unique_ptr<Decoder> decoder;
-  status = Decoder::open({reinterpret_cast<const uint8_t*>(text.data()), text.size()},
-                         {.limits = {}, .threads = o.threads}, decoder);
-  if (!status.ok()) return fail(console, {status.code(), o.input + ": " + status.message()});
+  DecodeOptions options{.limits = {}, .threads = o.threads};
+  options.limits.max_memory = o.max_memory;
+  status =
+      Decoder::open({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, options, decoder);
+  if (!status.ok()) return fail(console, stream_failure(o.input, status, o.max_memory));
   return StreamWriter(o, *decoder, console).run();
 }
 
@@ -224,6 +228,7 @@ void add_decode_command(CLI::App& app, int& exit_code) {
       ->type_name("R");
   add_keep_going_option(*command, o->keep_going);
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

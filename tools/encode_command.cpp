@@ -50,6 +50,7 @@ struct Options {
   std::optional<double> frame_rate;
   std::optional<double> start_time;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   EncodeOptions encoder;
   ConsoleOptions console;
 };
@@ -262,6 +263,7 @@ int run(Options& o) {
   Sequence sequence;
   ReadReport read;
   const ReadOptions reading{.threads = o.threads,
+                            .max_memory = o.max_memory,
                             .allow_gaps = o.allow_gaps,
                             .list_order = o.lossless,
                             .embed = o.embed,
@@ -446,6 +448,7 @@ void add_encode_command(CLI::App& app, int& exit_code) {
       "Keep neither target and measured errors nor the boxes that groups lie in, some "
       "90 bytes and 24 a group, which reeb info tells and players use");
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

@@ -28,6 +28,7 @@ struct Options {
   std::string output;
   uint32_t poses = 3;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -105,7 +106,8 @@ class Indexer {
     if (stored_in(file.path, file.shapes)) return {};
     Sequence sequence;
     ReadReport report;
-    const Status status = read_sequence({file.path}, {.threads = 1}, sequence, report);
+    const Status status = read_sequence(
+        {file.path}, {.threads = 1, .max_memory = options_.max_memory}, sequence, report);
     if (!status.ok()) return status;
     std::string complaint;
     file.shapes = sign_frames(sequence, options_.poses, complaint);
@@ -184,6 +186,7 @@ void add_index_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1u, 1000u).description(""))
       ->type_name("N");
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

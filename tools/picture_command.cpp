@@ -32,6 +32,7 @@ struct Options {
   std::string texture;
   bool overwrite = false;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -49,8 +50,9 @@ Status select_frames(const FrameSelection& asked, uint32_t count, std::vector<ui
 Status load(const Options& o, const std::vector<std::string>& names, Console& console,
             Sequence& out, std::string& damage) {
   ReadReport report;
-  const Status status =
-      read_sequence(names, {.threads = o.threads, .progress = console.bar("reading")}, out, report);
+  const Status status = read_sequence(
+      names, {.threads = o.threads, .max_memory = o.max_memory, .progress = console.bar("reading")},
+      out, report);
   if (!status.ok()) return status;
   console.say_all(report.notes);
   damage = describe_damage(names.back(), report);
@@ -181,6 +183,7 @@ void add_picture_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->group(group);
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

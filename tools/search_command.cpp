@@ -29,6 +29,7 @@ struct Options {
   bool z_up = false;
   bool overwrite = false;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -74,7 +75,8 @@ std::string as_json(const ShapeArchive& archive, const std::vector<SearchResult>
 Status read_query(const Options& o, Console& console, Sequence& sequence,
                   retrieval::Signature& signature) {
   ReadReport report;
-  Status status = read_sequence({o.query}, {.threads = o.threads}, sequence, report);
+  Status status = read_sequence({o.query}, {.threads = o.threads, .max_memory = o.max_memory},
+                                sequence, report);
   if (!status.ok()) return status;
   if (o.frame > sequence.frame_count()) {
     return Status::invalid(o.query + ": there are frames 1 to " + grouped(sequence.frame_count()) +
@@ -96,7 +98,8 @@ Status draw_results(const Options& o, const ShapeArchive& archive, const Sequenc
     const std::string& path = archive.files[r.file].path;
     Sequence sequence;
     ReadReport report;
-    if (Status status = read_sequence({path}, {.threads = o.threads}, sequence, report);
+    if (Status status = read_sequence({path}, {.threads = o.threads, .max_memory = o.max_memory},
+                                      sequence, report);
         !status.ok()) {
       console.say(status.message() + "; left out of the picture");
       continue;
@@ -185,6 +188,7 @@ void add_search_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", o->json, "Results as JSON, with all distances");
   add_picture_options(*command, *o);
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

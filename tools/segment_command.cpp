@@ -35,6 +35,7 @@ struct Options {
   bool z_up = false;
   bool overwrite = false;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -159,7 +160,8 @@ int run(const Options& o) {
   Status status = output.prepare(targets(o));
   Sequence sequence;
   ReadReport report;
-  const ReadOptions reading{.threads = o.threads, .progress = console.bar("reading")};
+  const ReadOptions reading{
+      .threads = o.threads, .max_memory = o.max_memory, .progress = console.bar("reading")};
   if (status.ok()) status = read_sequence(o.inputs, reading, sequence, report);
   if (!status.ok()) return fail(console, status);
   console.say_all(report.notes);
@@ -227,6 +229,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   add_keep_going_option(*command, o->keep_going);
   add_picture_options(*command, *o);
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

@@ -5,6 +5,7 @@
 #include "tools/command.h"
 #include "tools/damage.h"
 #include "tools/io/file_bytes.h"
+#include "tools/io/read_sequence.h"
 #include "tools/text.h"
 
 namespace reeb::tools {
@@ -14,6 +15,7 @@ namespace {
 struct Options {
   std::vector<std::string> inputs;
   unsigned threads = 0;
+  uint64_t max_memory = Limits().max_memory;
   ConsoleOptions console;
 };
 
@@ -26,11 +28,13 @@ Status check(const std::string& name, const Options& o, Console& console,
   const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
   ContainerReader container;
   std::unique_ptr<Decoder> decoder;
-  Status status = container.parse(bytes, Limits());
-  if (status.ok()) status = Decoder::open(bytes, {.limits = {}, .threads = o.threads}, decoder);
+  DecodeOptions options{.limits = {}, .threads = o.threads};
+  options.limits.max_memory = o.max_memory;
+  Status status = container.parse(bytes, options.limits);
+  if (status.ok()) status = Decoder::open(bytes, options, decoder);
   std::vector<StreamInfo::Gap> missing;
   if (status.ok()) status = find_missing(*decoder, console.bar("checking"), missing);
-  if (!status.ok()) return {status.code(), name + ": " + status.message()};
+  if (!status.ok()) return stream_failure(name, status, o.max_memory);
   const StreamInfo& info = decoder->info();
   for (const DamagedRange& range : container.damaged)
     faults.push_back(name + ": " + describe(range));
@@ -66,6 +70,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("");
   add_threads_option(*command, o->threads);
+  add_memory_limit_option(*command, o->max_memory);
   add_console_options(*command, o->console);
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

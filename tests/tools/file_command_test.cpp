@@ -76,6 +76,30 @@ TEST_CASE("a folder in brackets is no list") {
   CHECK(result.exit_code == kExitDone);
 }
 
+TEST_CASE("every command that decodes says how it can have more memory") {
+  const TempFolder folder;
+  const std::string cache = folder / "s.pc2", stream = folder / "s.reeb";
+  REQUIRE(run_reeb({"sample", "sheet", "--length", "3", "-o", cache}).exit_code == kExitDone);
+  REQUIRE(run_reeb({"encode", cache, "-o", stream}).exit_code == kExitDone);
+  const std::vector<std::vector<std::string>> commands = {
+      {"verify", stream},
+      {"decode", stream, "-o", folder / "d.pc2"},
+      {"compare", stream, stream},
+      {"encode", stream, "-o", folder / "again.reeb"},
+      {"picture", stream, stream, "-o", folder / "p.png"},
+      {"segment", stream, "-o", folder / "regions.ply"}};
+  for (std::vector<std::string> command : commands) {
+    INFO(command[0]);
+    CHECK(run_reeb(command).exit_code == kExitDone);
+    command.insert(command.end(), {"--memory-limit", "100k"});
+    if (command[0] != "verify" && command[0] != "compare") command.push_back("-f");
+    const CommandResult result = run_reeb(command);
+    CHECK(result.exit_code == kExitFailed);
+    CHECK_THAT(result.err,
+               Contains("s.reeb") && Contains("100,000 bytes") && Contains("--memory-limit"));
+  }
+}
+
 TEST_CASE("a file beyond the size limit is an error that leaves nothing") {
   const TempFolder folder;
   REQUIRE(run_reeb({"sample", "sheet", "--length", "3", "-o", folder / "s.pc2"}).exit_code ==

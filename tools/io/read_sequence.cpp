@@ -261,7 +261,8 @@ Status read_stream(const fs::path& path, const ReadOptions& options, Sequence& o
   if (Status status = FileBytes::read(path, file); !status.ok()) return status;
   const std::string_view text = file.view();
   const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
-  const DecodeOptions decode_options{.limits = {}, .threads = options.threads};
+  DecodeOptions decode_options{.limits = {}, .threads = options.threads};
+  decode_options.limits.max_memory = options.max_memory;
   std::unique_ptr<Decoder> decoder;
   Status status = Decoder::open(bytes, decode_options, decoder);
   if (status.ok()) {
@@ -273,11 +274,19 @@ Status read_stream(const fs::path& path, const ReadOptions& options, Sequence& o
     if (partly && out.shots.empty())
       status = {status.code(), "no frame can be decoded: " + status.message()};
   }
-  if (!status.ok()) return {status.code(), path.string() + ": " + status.message()};
-  return {};
+  return status.ok() ? status : stream_failure(path.string(), status, options.max_memory);
 }
 
 }  // namespace
+
+Status stream_failure(const std::string& name, const Status& status, uint64_t max_memory) {
+  const bool memory = status.code() == StatusCode::kLimitExceeded &&
+                      status.message().find("memory") != std::string::npos;
+  std::string remedy;
+  if (memory)
+    remedy = ", which is " + grouped(max_memory) + " bytes; allow more with --memory-limit";
+  return {status.code(), name + ": " + status.message() + remedy};
+}
 
 Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& options,
                      Sequence& out, ReadReport& report) {

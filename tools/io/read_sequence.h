@@ -14,8 +14,9 @@
 namespace reeb::tools {
 
 struct ReadOptions {
-  unsigned threads = 0;     ///< 0 = all cores
-  bool allow_gaps = false;  ///< a missing frame number is not an error
+  unsigned threads = 0;                       ///< 0 = all cores
+  uint64_t max_memory = Limits().max_memory;  ///< bytes that decoding may take
+  bool allow_gaps = false;                    ///< a missing frame number is not an error
   bool list_order = false;  ///< OBJ: the order of its lists is kept, as `vt.index` and `vn.index`
   bool embed = false;       ///< OBJ: material texts and textures become resources
   /// Called with the done part in [0,1]. May be empty.
@@ -35,5 +36,8 @@ struct ReadReport {
 /// vertex count changes. The message of a failure names the file, the frame and the remedy.
 Status read_sequence(const std::vector<std::string>& inputs, const ReadOptions& options,
                      Sequence& out, ReadReport& report);
+
+/// Why a stream is not decoded, with its name, and with what to do where it is for want of memory.
+Status stream_failure(const std::string& name, const Status& status, uint64_t max_memory);
 
 }  // namespace reeb::tools
