@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     if (!reader.parse(file, {}).ok()) return 1;
     write(folder / "container" / name, file);
     write(folder / "decode" / name, file);
+    write(folder / "work" / name, file);
     for (const reeb::ReferenceChunk& r : reader.references) {
       write(folder / "reference" / (name + std::to_string(r.header.shot)), r.mesh);
       write(folder / "connectivity" / (name + std::to_string(r.header.shot)), connectivity_in(r));
