@@ -1,12 +1,14 @@
 // Large arrays of over-aligned structures.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 #include <vector>
 
 #include "codec/common/base/raw_vector.h"
+#include "codec/common/base/stop.h"
 
 namespace reeb {
 
@@ -40,5 +42,18 @@ struct AligningAllocator {
 /// Elements are not set to zero.
 template <class Batch>
 using BatchVector = std::vector<Batch, RawAllocator<Batch, AligningAllocator>>;
+
+/// `count` batches of zeros, in pieces: pages that are touched for the first time take the system
+/// longer than what is computed in them. Throws Stopped where `stop` is requested.
+template <class Batch>
+void make_batches(size_t count, const StopToken& stop, BatchVector<Batch>& out) {
+  constexpr size_t kPiece = 256;
+  out.clear();
+  out.reserve(count);
+  while (out.size() < count) {
+    stop.check();
+    out.resize(std::min(count, out.size() + kPiece), Batch{});
+  }
+}
 
 }  // namespace reeb

@@ -50,7 +50,7 @@ DisplacementPredictor::DisplacementPredictor(const PredictionGraph& graph,
       position_(size_t{graph.size()} * 4),
       squared_error_(graph.size()) {
   for (auto& plane : moved_) plane.assign(position_.size(), 0.0f);
-  batches_->items.resize((graph.size() + kRowsAtOnce - 1) / kRowsAtOnce, DisplacementBatch{});
+  make_batches((graph.size() + kRowsAtOnce - 1) / kRowsAtOnce, stop, batches_->items);
   for (uint32_t r = 0; r < batches_->items.size() * kRowsAtOnce; ++r) {
     // Past the end the last row comes again; its results are dropped.
     const uint32_t row = std::min(r, graph.size() - 1);

@@ -85,7 +85,7 @@ void WeightEstimator::observe_reference(const GridPoints& points,
 
 // Not before: a field that learns nothing needs none, and what the reference gives is written once.
 void WeightEstimator::make_equations() {
-  if (equations_.empty()) equations_.resize(graph_.size(), RowEquations{});
+  if (equations_.empty()) make_batches(graph_.size(), stop_, equations_);
 }
 
 WeightEstimator::List WeightEstimator::list(const Planes& planes) const {
@@ -124,6 +124,7 @@ void WeightEstimator::fold(uint32_t r, const List& list) {
 void WeightEstimator::fade(double factor, const Planes& planes) {
   end_list(planes);
   for (uint32_t r = 0; r < graph_.size(); ++r) {
+    stop_.check();
     for (auto& strip : equations_[r].strip) {
       for (double& entry : strip) entry *= factor;
     }
