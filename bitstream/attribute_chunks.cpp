@@ -1,4 +1,5 @@
 // The part of the parser that takes what a mesh carries beside positions.
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -8,8 +9,6 @@
 
 namespace reeb {
 namespace {
-
-constexpr uint64_t kBoundsBytesPerByte = 2;  // memory of boxes
 
 Status corrupt(const Chunk& chunk, const std::string& what) {
   return Status::corrupt(to_string(chunk.type) + " at byte " + std::to_string(chunk.offset) + ": " +
@@ -35,7 +34,8 @@ Status ContainerParser::take_attribute(const Chunk& chunk) {
     return corrupt(chunk, "attributes are not consecutive");
   if (intact() && (out_.references.empty() || out_.references.back().header.shot != h.shot))
     return corrupt(chunk, "no reference mesh of its shot before it");
-  if (Status s = spend(2 * sizeof(AttributeChunk) + h.name.size()); !s.ok()) return s;
+  if (Status s = spend(text_memory(h.name), out_.lease); !s.ok()) return s;
+  if (Status s = make_room(out_.attributes, out_.lease); !s.ok()) return s;
   out_.attributes.push_back(std::move(a));
   count("attributes", chunk.size);
   return {};
@@ -60,7 +60,7 @@ Status ContainerParser::take_attribute_group(const Chunk& chunk) {
   if (intact() && (group == nullptr || group->shot != h.shot ||
                    group->first_frame != h.first_frame || group->frame_count != h.frame_count))
     return corrupt(chunk, "its frames are not those of the group before it");
-  if (Status s = spend(2 * sizeof(AttributeGroupChunk)); !s.ok()) return s;
+  if (Status s = make_room(out_.attribute_groups, out_.lease); !s.ok()) return s;
   out_.attribute_groups.push_back(a);
   count("animated attributes", chunk.size);
   return {};
@@ -72,7 +72,9 @@ Status ContainerParser::take_resource(const Chunk& chunk) {
   r.size = chunk.size;
   ByteReader in(chunk.payload);
   if (Status s = read_header(in, "rsrc", r.header); !s.ok()) return s;
-  if (Status s = spend(2 * sizeof(ResourceChunk) + r.header.name.size()); !s.ok()) return s;
+  const uint64_t texts = text_memory(r.header.name) + text_memory(r.header.media_type);
+  if (Status s = spend(texts, out_.lease); !s.ok()) return s;
+  if (Status s = make_room(out_.resources, out_.lease); !s.ok()) return s;
   out_.resources.push_back(std::move(r));
   count("resources", chunk.size);
   return {};
@@ -80,9 +82,11 @@ Status ContainerParser::take_resource(const Chunk& chunk) {
 
 Status ContainerParser::take_bounds(const Chunk& chunk) {
   if (!out_.bounds.empty()) return corrupt(chunk, "a second one");
-  if (Status s = spend(kBoundsBytesPerByte * chunk.payload_size); !s.ok()) return s;
   GroupBoxes bounds;
   ByteReader in(chunk.payload);
+  const uint64_t most = chunk.payload_size / sizeof(Box);
+  const uint64_t boxes = std::min(ByteReader(chunk.payload).varuint(), most);
+  if (Status s = spend(boxes * sizeof(Box), out_.lease); !s.ok()) return s;
   if (Status s = read_header(in, "bnds", bounds); !s.ok()) return s;
   if (in.position() != chunk.payload_size) return corrupt(chunk, "bytes after the last field");
   for (const Box& box : bounds.groups) {

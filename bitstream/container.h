@@ -14,6 +14,7 @@
 #include "bitstream/chunk.h"
 #include "bitstream/headers.h"
 #include "bitstream/limits.h"
+#include "bitstream/memory_account.h"
 #include "bitstream/status.h"
 
 namespace reeb {
@@ -143,16 +144,19 @@ struct ContainerReader {
   bool truncated = false;  ///< the file ends early; what was whole before the cut is here
   /// Bytes of the file by section; the sum is the file's size.
   std::vector<std::pair<std::string, uint64_t>> sections;
+  Lease lease;  ///< of the memory that all of it takes
 
   /// Reads `file`, which must outlive this object: spans point into it. A wrong checksum or a cut
   /// is reported in `damaged` and `truncated`; kCorrupt where bytes with a right checksum break the
   /// specification or the sequence header is lost; kUnsupported for a newer version or an unknown
-  /// critical chunk; kLimitExceeded.
+  /// critical chunk; kLimitExceeded. What it takes of memory comes from `account`, which must
+  /// outlive this object, too, or from one of its own.
+  Status parse(std::span<const uint8_t> file, const Limits& limits, MemoryAccount& account);
   Status parse(std::span<const uint8_t> file, const Limits& limits);
 
   /// The same through a source, without reading the payloads of meshes and groups that an
   /// undamaged seek table leads to; `load_chunk` checks them. Spans stay empty.
-  Status open(ByteSource& source, const Limits& limits);
+  Status open(ByteSource& source, const Limits& limits, MemoryAccount& account);
 
   /// Reference mesh of a shot, nullptr where it was damaged.
   const ReferenceChunk* reference(uint32_t shot) const;

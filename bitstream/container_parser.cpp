@@ -10,10 +10,8 @@
 namespace reeb {
 namespace {
 
-constexpr size_t kMaxHeaderBytes = 512;         // headers of meshes and groups are shorter
-constexpr size_t kBlock = size_t{1} << 16;      // read at once to check a sum
-constexpr uint64_t kMetadataBytesPerByte = 48;  // memory of entries that are hardly there
-constexpr uint64_t kSeekBytesPerByte = 20;
+constexpr size_t kMaxHeaderBytes = 512;     // headers of meshes and groups are shorter
+constexpr size_t kBlock = size_t{1} << 16;  // read at once to check a sum
 
 Status corrupt(const Chunk& chunk, const std::string& what) {
   return Status::corrupt(to_string(chunk.type) + " at byte " + std::to_string(chunk.offset) + ": " +
@@ -46,9 +44,8 @@ uint64_t ContainerParser::frames_end() const {
 }
 
 bool ContainerParser::fetch(uint64_t offset, uint64_t count, std::span<const uint8_t>& out) {
-  if (source_status_.ok())
-    source_status_ = source_.read(offset, static_cast<size_t>(count), buffer_, out);
-  return source_status_.ok();
+  if (status_.ok()) status_ = source_.read(offset, static_cast<size_t>(count), buffer_, out);
+  return status_.ok();
 }
 
 // The payload of a mesh or a group comes without its sections.
@@ -62,7 +59,8 @@ ChunkResult ContainerParser::read(uint64_t offset, Chunk& chunk) {
   chunk.crc_ok = landmark_of(chunk) != nullptr || check_crc(chunk);
   if (!chunk.crc_ok) return result;
   const bool all = read_whole_payload(chunk.type);
-  if (all && !spend(chunk.payload_size).ok()) return result;  // `take` says so
+  // `take` says so where that fails.
+  if (all && !spend(chunk.payload_size, own_).ok()) return result;
   fetch(chunk.payload_offset,
         all ? chunk.payload_size : std::min<uint64_t>(chunk.payload_size, kMaxHeaderBytes),
         chunk.payload);
@@ -93,11 +91,9 @@ const ContainerParser::Landmark* ContainerParser::landmark_of(const Chunk& chunk
 }
 
 // Counts memory for what headers unfold to.
-Status ContainerParser::spend(uint64_t bytes) {
-  if (bytes > limits_.max_memory - spent_)
-    return Status::limit("the headers need more memory than allowed");
-  spent_ += bytes;
-  return {};
+Status ContainerParser::spend(uint64_t bytes, Lease& lease) {
+  return lease.grow(account_, bytes) ? Status()
+                                     : Status::limit("the headers need more memory than allowed");
 }
 
 void ContainerParser::count(const char* section, uint64_t bytes) {
@@ -112,7 +108,7 @@ void ContainerParser::count(const char* section, uint64_t bytes) {
 
 Status ContainerParser::read_preamble(bool complete) {
   std::span<const uint8_t> front;
-  if (!fetch(0, std::min<uint64_t>(source_.size(), kPreambleBytes), front)) return source_status_;
+  if (!fetch(0, std::min<uint64_t>(source_.size(), kPreambleBytes), front)) return status_;
   const size_t letters = std::min(front.size(), kSignature.size());
   if (!std::equal(front.begin(), front.begin() + static_cast<ptrdiff_t>(letters),
                   kSignature.begin())) {
@@ -133,7 +129,7 @@ Status ContainerParser::read_preamble(bool complete) {
 Status ContainerParser::read_sequence_header(bool complete) {
   Chunk chunk;
   const ChunkResult result = read(offset_, chunk);
-  if (!source_status_.ok()) return source_status_;
+  if (!status_.ok()) return status_;
   if (result == ChunkResult::kCut)
     return complete ? Status::truncated("the file ends in its HEAD chunk") : Status();
   if (result == ChunkResult::kNoChunk || chunk.type != kHeadChunk) {
@@ -171,10 +167,11 @@ void ContainerParser::find_landmarks() {
   landmarks_sought_ = true;
   const auto chunk = find_seek_chunk();
   SeekTable table;
-  if (!chunk || !spend(kSeekBytesPerByte * chunk->payload_size).ok() ||
-      !read_whole(*chunk, table).ok()) {
-    return;
-  }
+  Lease lease;
+  if (!chunk || !read_seek_table(*chunk, table, lease).ok()) return;
+  const size_t most = table.entries.size() + 1;
+  if (!spend(most * sizeof(Landmark), own_).ok()) return;
+  landmarks_.reserve(most);
   uint64_t at = 0;
   for (const SeekEntry& entry : table.entries) {
     if (entry.gap > chunk->offset - at) break;
@@ -190,12 +187,12 @@ void ContainerParser::find_landmarks() {
 bool ContainerParser::at_end() {
   std::span<const uint8_t> bytes;
   if (rest() == kTrailerBytes && fetch(offset_, kTrailerBytes, bytes) && is_trailer(bytes)) {
-    if (!seek_seen_ || landmarks_.empty()) out_.damaged.push_back({"", offset_, rest()});
+    if (!seek_seen_ || landmarks_.empty()) note_damage("", rest());
     count("seek table", rest());
     return true;
   }
   if (seek_seen_ && rest() >= kTrailerBytes) {  // no trailer where it should be
-    out_.damaged.push_back({"", offset_, rest()});
+    note_damage("", rest());
     count("damaged", rest());
     return true;
   }
@@ -203,6 +200,12 @@ bool ContainerParser::at_end() {
   out_.truncated = true;
   count("damaged", rest());
   return true;
+}
+
+// Without memory for more of it, reading ends.
+void ContainerParser::note_damage(const std::string& type, uint64_t size) {
+  if (status_.ok()) status_ = make_room(out_.damaged, out_.lease);
+  if (status_.ok()) out_.damaged.push_back({type, offset_, size});
 }
 
 // Goes to the next place where a chunk is known or claimed to start, else to the end of the file.
@@ -221,7 +224,7 @@ void ContainerParser::skip_damage(const Chunk& chunk, ChunkResult result) {
     out_.truncated = true;
   }
   const bool typed = is_chunk_type(chunk.type);
-  out_.damaged.push_back({typed ? to_string(chunk.type) : "", offset_, end - offset_});
+  note_damage(typed ? to_string(chunk.type) : "", end - offset_);
   count("damaged", end - offset_);
   offset_ = end;
 }
@@ -242,10 +245,10 @@ Status ContainerParser::scan(bool complete) {
     const ChunkResult result = read(offset_, chunk);
     Status taken;
     bool right = result == ChunkResult::kFound && chunk.crc_ok;
-    if (right && source_status_.ok()) taken = take(chunk);
+    if (right && status_.ok()) taken = take(chunk);
     // A chunk whose checksum was to wait and that makes no sense may be damaged.
     if (!taken.ok() && landmark_of(chunk) != nullptr) right = check_crc(chunk);
-    if (!source_status_.ok()) return source_status_;
+    if (!status_.ok()) return status_;
     if (right && !taken.ok()) return taken;
     if (right) {
       offset_ += chunk.size;
@@ -253,7 +256,7 @@ Status ContainerParser::scan(bool complete) {
       break;
     }
   }
-  return source_status_;
+  return status_;
 }
 
 Status ContainerParser::take(const Chunk& chunk) {
@@ -273,18 +276,33 @@ Status ContainerParser::take(const Chunk& chunk) {
   return {};
 }
 
+// `entries`: for the time that they are not in `out_`; their texts stay.
+Status ContainerParser::read_metadata(const Chunk& chunk, Metadata& out, Lease& entries) {
+  const uint64_t most = chunk.payload_size / 2;  // an entry has two bytes at least
+  const uint64_t there = std::min(ByteReader(chunk.payload).varuint(), most);
+  const uint64_t texts = text_memory(chunk.payload_size, 2 * there);
+  if (Status s = spend(texts, out_.lease); !s.ok()) return s;
+  if (Status s = spend(there * sizeof(MetadataEntry), entries); !s.ok()) return s;
+  return read_whole(chunk, out);
+}
+
 Status ContainerParser::take_metadata(const Chunk& chunk) {
-  if (Status s = spend(kMetadataBytesPerByte * chunk.payload_size); !s.ok()) return s;
   Metadata more;
-  if (Status s = read_whole(chunk, more); !s.ok()) return s;
-  std::move(more.entries.begin(), more.entries.end(), std::back_inserter(out_.metadata));
+  Lease lease;
+  if (Status s = read_metadata(chunk, more, lease); !s.ok()) return s;
+  for (MetadataEntry& entry : more.entries) {
+    if (Status s = make_room(out_.metadata, out_.lease); !s.ok()) return s;
+    out_.metadata.push_back(std::move(entry));
+  }
   count("metadata", chunk.size);
   return {};
 }
 
-void ContainerParser::note_chunk(const Chunk& chunk, uint32_t frame_count) {
+Status ContainerParser::note_chunk(const Chunk& chunk, uint32_t frame_count) {
+  if (Status s = make_room(seen_, own_); !s.ok()) return s;
   seen_.push_back({chunk.offset - seen_end_, chunk.size, frame_count});
   seen_end_ = chunk.offset + chunk.size;
+  return {};
 }
 
 Status ContainerParser::check_reference(const Chunk& chunk, const ReferenceChunk& r) const {
@@ -319,11 +337,10 @@ Status ContainerParser::take_reference(const Chunk& chunk) {
   if (Status s = read_header(in, "REFM", r.header); !s.ok()) return s;
   if (Status s = read_header(in, "mesh header", r.mesh_header); !s.ok()) return s;
   if (Status s = check_reference(chunk, r); !s.ok()) return s;
-  if (Status s = spend(2 * (sizeof(ReferenceChunk) + sizeof(SeekEntry))); !s.ok()) return s;
+  if (Status s = make_room(out_.references, out_.lease); !s.ok()) return s;
   out_.references.push_back(r);
-  note_chunk(chunk, 0);
   count("reference mesh", chunk.size);
-  return {};
+  return note_chunk(chunk, 0);
 }
 
 Status ContainerParser::check_group(const Chunk& chunk, const GroupHeader& h) const {
@@ -360,20 +377,26 @@ Status ContainerParser::take_group(const Chunk& chunk) {
   const Landmark* landmark = landmark_of(chunk);
   if (landmark != nullptr && landmark->frame_count != h.frame_count)
     return corrupt(chunk, "the seek table has another frame_count");
-  if (Status s = spend(2 * (sizeof(GroupChunk) + sizeof(SeekEntry))); !s.ok()) return s;
+  if (Status s = make_room(out_.groups, out_.lease); !s.ok()) return s;
   out_.groups.push_back(g);
-  note_chunk(chunk, h.frame_count);
   for (const GroupSection& s : kGroupSections) {
     if (h.*s.bytes > 0) count(s.name, h.*s.bytes);
   }
   count("group headers", chunk.size - section_bytes(h));
-  return {};
+  return note_chunk(chunk, h.frame_count);
+}
+
+Status ContainerParser::read_seek_table(const Chunk& chunk, SeekTable& out, Lease& lease) {
+  const uint64_t most = chunk.payload_size / 3;  // an entry has three bytes at least
+  const uint64_t there = std::min(ByteReader(chunk.payload).varuint(), most);
+  if (Status s = spend(there * sizeof(SeekEntry), lease); !s.ok()) return s;
+  return read_whole(chunk, out);
 }
 
 Status ContainerParser::take_seek_table(const Chunk& chunk) {
-  if (Status s = spend(kSeekBytesPerByte * chunk.payload_size); !s.ok()) return s;
   SeekTable table;
-  if (Status s = read_whole(chunk, table); !s.ok()) return s;
+  Lease lease;
+  if (Status s = read_seek_table(chunk, table, lease); !s.ok()) return s;
   if (intact() && table.entries != seen_) return corrupt(chunk, "the table is wrong");
   seek_seen_ = true;
   count("seek table", chunk.size);
@@ -403,9 +426,11 @@ Status ContainerParser::check_complete() {
 // Reads a damaged file once more, now that its seek table may help.
 Status ContainerParser::restart() {
   out_ = {};
-  landmarks_.clear();
-  seen_.clear();
-  offset_ = seen_end_ = spent_ = 0;
+  landmarks_ = {};
+  seen_ = {};
+  buffer_ = {};
+  own_ = {};
+  offset_ = seen_end_ = 0;
   landmarks_sought_ = lost_ = has_preamble_ = has_header_ = seek_seen_ = false;
   return advance(true);
 }

@@ -2,11 +2,13 @@
 // there.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bitstream/container.h"
+#include "bitstream/memory_account.h"
 
 namespace reeb {
 
@@ -18,10 +20,11 @@ enum class Checksums {
 
 class ContainerParser {
  public:
-  /// All references must outlive the parser. What is found is added to `out`, which is empty.
+  /// All references must outlive the parser, the account what is found, too: that is added to
+  /// `out`, which is empty.
   ContainerParser(ByteSource& source, const Limits& limits, Checksums checksums,
-                  ContainerReader& out)
-      : source_(source), limits_(limits), checksums_(checksums), out_(out) {}
+                  MemoryAccount& account, ContainerReader& out)
+      : source_(source), limits_(limits), checksums_(checksums), account_(account), out_(out) {}
 
   /// Reads on to the end of the source. `complete`: nothing comes after it; else a chunk that is
   /// not whole is left for the next call. Errors as of ContainerReader::parse.
@@ -42,7 +45,11 @@ class ContainerParser {
   ChunkResult read(uint64_t offset, Chunk& chunk);
   bool check_crc(const Chunk& chunk);
   const Landmark* landmark_of(const Chunk& chunk) const;
-  Status spend(uint64_t bytes);
+  Status spend(uint64_t bytes, Lease& lease);
+  template <class T>
+  Status make_room(std::vector<T>& list, Lease& lease);
+  Status read_metadata(const Chunk& chunk, Metadata& out, Lease& entries);
+  Status read_seek_table(const Chunk& chunk, SeekTable& out, Lease& lease);
   Status read_preamble(bool complete);
   Status read_sequence_header(bool complete);
   std::optional<Chunk> find_seek_chunk();
@@ -50,6 +57,7 @@ class ContainerParser {
   Status scan(bool complete);
   bool at_end();
   bool wait_or_skip(const Chunk& chunk, ChunkResult result, bool complete);
+  void note_damage(const std::string& type, uint64_t size);
   void skip_damage(const Chunk& chunk, ChunkResult result);
   Status take(const Chunk& chunk);
   Status take_metadata(const Chunk& chunk);
@@ -58,7 +66,7 @@ class ContainerParser {
   Status take_resource(const Chunk& chunk);
   Status take_bounds(const Chunk& chunk);
   Status take_reference(const Chunk& chunk);
-  void note_chunk(const Chunk& chunk, uint32_t frame_count);
+  Status note_chunk(const Chunk& chunk, uint32_t frame_count);
   Status check_reference(const Chunk& chunk, const ReferenceChunk& reference) const;
   Status take_group(const Chunk& chunk);
   Status check_group(const Chunk& chunk, const GroupHeader& header) const;
@@ -73,11 +81,12 @@ class ContainerParser {
   ByteSource& source_;
   const Limits& limits_;
   Checksums checksums_;
+  MemoryAccount& account_;
   ContainerReader& out_;
+  Lease own_;                    // of what is in here
   std::vector<uint8_t> buffer_;  // of the last `fetch`
-  Status source_status_;         // of the source; the first failure stays
+  Status status_;                // of the source, and of memory for damage; the first failure stays
   uint64_t offset_ = 0;
-  uint64_t spent_ = 0;               // bytes of memory that the headers take
   std::vector<Landmark> landmarks_;  // ascending; the last is the seek chunk itself
   bool landmarks_sought_ = false;
   bool lost_ = false;            // no chunk starts at `offset_`, and the file is not complete yet
@@ -85,5 +94,18 @@ class ContainerParser {
   uint64_t seen_end_ = 0;
   bool has_preamble_ = false, has_header_ = false, seek_seen_ = false;
 };
+
+/// Room for one more, for which both the old and the new block are there for a moment.
+template <class T>
+Status ContainerParser::make_room(std::vector<T>& list, Lease& lease) {
+  constexpr size_t kFirst = 8;
+  const size_t before = list.capacity();
+  if (list.size() < before) return {};
+  const size_t after = std::max(kFirst, 2 * before);
+  if (Status s = spend(after * sizeof(T), lease); !s.ok()) return s;
+  list.reserve(after);
+  lease.shrink(lease.bytes() - before * sizeof(T));
+  return {};
+}
 
 }  // namespace reeb

@@ -99,10 +99,18 @@ Status load_chunk(ByteSource& source, std::vector<uint8_t>& buffer, ResourceChun
 }
 
 Status ContainerReader::parse(std::span<const uint8_t> file, const Limits& limits) {
+  MemoryAccount account(limits.max_memory);
+  Status status = parse(file, limits, account);
+  lease = {};
+  return status;
+}
+
+Status ContainerReader::parse(std::span<const uint8_t> file, const Limits& limits,
+                              MemoryAccount& account) {
   *this = {};
   MemorySource source(file);
-  if (Status s = ContainerParser(source, limits, Checksums::kNow, *this).advance(true); !s.ok())
-    return s;
+  ContainerParser parser(source, limits, Checksums::kNow, account, *this);
+  if (Status s = parser.advance(true); !s.ok()) return s;
   Status status;
   const auto load_all = [&](auto& chunks) {
     std::vector<uint8_t> unused;
@@ -118,9 +126,9 @@ Status ContainerReader::parse(std::span<const uint8_t> file, const Limits& limit
   return status;
 }
 
-Status ContainerReader::open(ByteSource& source, const Limits& limits) {
+Status ContainerReader::open(ByteSource& source, const Limits& limits, MemoryAccount& account) {
   *this = {};
-  return ContainerParser(source, limits, Checksums::kOnLoad, *this).advance(true);
+  return ContainerParser(source, limits, Checksums::kOnLoad, account, *this).advance(true);
 }
 
 const ReferenceChunk* ContainerReader::reference(uint32_t shot) const {
@@ -130,10 +138,12 @@ const ReferenceChunk* ContainerReader::reference(uint32_t shot) const {
 }
 
 const AttributeChunk* ContainerReader::attribute(uint32_t shot, uint32_t index) const {
-  const auto at = std::find_if(attributes.begin(), attributes.end(), [&](const AttributeChunk& a) {
-    return a.header.shot == shot && a.header.index == index;
-  });
-  return at == attributes.end() ? nullptr : &*at;
+  const auto key = [](const AttributeHeader& h) { return std::pair(h.shot, h.index); };
+  const std::pair wanted(shot, index);
+  const auto at =
+      std::lower_bound(attributes.begin(), attributes.end(), wanted,
+                       [&](const AttributeChunk& a, const auto& w) { return key(a.header) < w; });
+  return at == attributes.end() || key(at->header) != wanted ? nullptr : &*at;
 }
 
 const AttributeGroupChunk* ContainerReader::attribute_group(uint32_t first_frame,

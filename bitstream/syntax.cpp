@@ -92,9 +92,10 @@ void SyntaxReader::text_field(const char* name, std::string& value) {
   const size_t offset = in_.position();
   const auto text = in_.take(in_.varuint());
   check_bytes(name);
-  value.assign(text.begin(), text.end());
+  // By a pointer: iterators would have it copied once more.
+  value.assign(reinterpret_cast<const char*>(text.data()), text.size());
   if (!is_utf8(value)) fail(name, "is not UTF-8");
-  trace_line(offset, name, quoted(value));
+  if (lines_ != nullptr) trace_line(offset, name, quoted(value));
 }
 
 size_t SyntaxReader::list_size(const char* name, size_t, size_t entry_bytes) {

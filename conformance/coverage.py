@@ -28,7 +28,7 @@ INTERFACE = {
     "codec/dec/group_store.cpp": "groups kept, dropped and decoded ahead",
     "codec/dec/group_store.h": "the same",
     "codec/dec/guard.h": "exceptions into results",
-    "codec/dec/memory_account.h": "memory in use",
+    "bitstream/memory_account.h": "memory in use",
     "codec/dec/normals.cpp": "normals are computed, not coded",
     "codec/dec/pushed_source.cpp": "pushed bytes",
     "codec/dec/pushed_source.h": "the same",

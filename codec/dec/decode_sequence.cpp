@@ -51,7 +51,8 @@ class SequenceDecoder {
   void decode_run(const ReferenceChunk& reference, const Run& run, unsigned threads, Output& out);
   Status collect(const Output& out, Shot& shot);
   unsigned workers(uint64_t vertices, const Run& run, size_t parts) const;
-  Status check_complete() const;
+  Status add_metadata(Sequence& out);
+  Status check_complete();
   Status check_attributes() const;
 
   std::span<const uint8_t> bytes_;
@@ -104,8 +105,8 @@ unsigned SequenceDecoder::workers(uint64_t vertices, const Run& run, size_t part
   uint64_t most = 1;
   for (size_t g = run.begin; g < run.end; ++g) {
     const GroupChunk& group = container_.groups[g];
-    most =
-        std::max(most, group_memory(vertices, group.header) + state_memory(vertices) + group.size);
+    most = std::max(
+        most, group_memory(vertices, group.header, true) + state_memory(vertices) + group.size);
   }
   const uint64_t fit = (account_.limit() - account_.used()) / most;
   const uint64_t wanted = std::min<uint64_t>(resolve_threads(options_.threads), parts);
@@ -233,9 +234,22 @@ Status SequenceDecoder::check_attributes() const {
   return {};
 }
 
-Status SequenceDecoder::check_complete() const {
+Status SequenceDecoder::add_metadata(Sequence& out) {
+  constexpr uint64_t kEntryBytes = 2 * sizeof(std::string) + 64;  // of a map
+  for (const MetadataEntry& m : container_.metadata) {
+    if (!output_.grow(account_, kEntryBytes + text_memory(m.key) + text_memory(m.value)))
+      return Status::limit("the metadata need more memory than the limit allows");
+    out.metadata[m.key] = m.value;
+  }
+  return {};
+}
+
+Status SequenceDecoder::check_complete() {
   if (!damage_.ok()) return damage_;
   StreamInfo info;
+  Lease lease;
+  if (!lease.grow(account_, info_memory(container_)))
+    return Status::limit("the headers need more memory than allowed");
   update_info(container_, bytes_.size(), true, 0, info);
   if (info.missing.empty()) return check_attributes();
   const StreamInfo::Gap& gap = info.missing.front();
@@ -248,10 +262,10 @@ Status SequenceDecoder::check_complete() const {
 }
 
 Status SequenceDecoder::run(Sequence& out) {
-  if (Status s = container_.parse(bytes_, options_.limits); !s.ok()) return s;
+  if (Status s = container_.parse(bytes_, options_.limits, account_); !s.ok()) return s;
   out.frame_rate = container_.header.frame_rate;
   out.start_time = container_.header.start_time;
-  for (const MetadataEntry& m : container_.metadata) out.metadata[m.key] = m.value;
+  if (Status s = add_metadata(out); !s.ok()) return s;
   const auto& groups = container_.groups;
   decoded_.assign(groups.size(), false);
   for (Run run; run.begin < groups.size(); run.begin = run.end) {

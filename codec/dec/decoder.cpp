@@ -210,9 +210,19 @@ Status Decoder::Impl::parse_pushed(bool last) {
   Status status = parser->advance(last);
   // A damaged file has been read once more, which may have found more of it.
   if (last) info = {};
-  if (parser->has_header()) update_info(container, source->size(), last, groups, info);
   complete = last;
-  return status;
+  if (!parser->has_header()) return status;
+  Status told = tell(groups);
+  return status.ok() ? told : status;
+}
+
+Status Decoder::Impl::tell(size_t first_group) {
+  const uint64_t needed = info_memory(container);
+  const uint64_t there = info_lease.bytes();
+  if (needed > there && !info_lease.grow(account, needed - there))
+    return Status::limit("the headers need more memory than allowed");
+  update_info(container, source->size(), complete, first_group, info);
+  return {};
 }
 
 Decoder::Decoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -222,8 +232,9 @@ Status Decoder::open(std::span<const uint8_t> bytes, const DecodeOptions& option
                      std::unique_ptr<Decoder>& decoder) {
   return guarded([&]() -> Status {
     auto impl = std::make_unique<Impl>(std::make_unique<MemorySource>(bytes), options);
-    if (Status s = impl->container.parse(bytes, options.limits); !s.ok()) return s;
-    update_info(impl->container, bytes.size(), true, 0, impl->info);
+    if (Status s = impl->take_own(); !s.ok()) return s;
+    if (Status s = impl->container.parse(bytes, options.limits, impl->account); !s.ok()) return s;
+    if (Status s = impl->tell(0); !s.ok()) return s;
     decoder.reset(new Decoder(std::move(impl)));
     return {};
   });
@@ -233,8 +244,10 @@ Status Decoder::open(std::unique_ptr<ByteSource> source, const DecodeOptions& op
                      std::unique_ptr<Decoder>& decoder) {
   return guarded([&]() -> Status {
     auto impl = std::make_unique<Impl>(std::move(source), options);
-    if (Status s = impl->container.open(*impl->source, options.limits); !s.ok()) return s;
-    update_info(impl->container, impl->source->size(), true, 0, impl->info);
+    if (Status s = impl->take_own(); !s.ok()) return s;
+    if (Status s = impl->container.open(*impl->source, options.limits, impl->account); !s.ok())
+      return s;
+    if (Status s = impl->tell(0); !s.ok()) return s;
     decoder.reset(new Decoder(std::move(impl)));
     return {};
   });
@@ -245,10 +258,11 @@ Status Decoder::open_pushed(const DecodeOptions& options, std::unique_ptr<Decode
     auto source = std::make_unique<PushedSource>(options.resource());
     PushedSource* pushed = source.get();
     auto impl = std::make_unique<Impl>(std::move(source), options);
+    if (Status s = impl->take_own(); !s.ok()) return s;
     impl->pushed = pushed;
     impl->complete = false;
     impl->parser = std::make_unique<ContainerParser>(*pushed, impl->options.limits, Checksums::kNow,
-                                                     impl->container);
+                                                     impl->account, impl->container);
     decoder.reset(new Decoder(std::move(impl)));
     return {};
   });

@@ -40,7 +40,7 @@ struct Decoder::Impl {
   std::unique_ptr<ByteSource> source;
   PushedSource* pushed = nullptr;  ///< the source, where bytes are pushed
   MemoryAccount account;
-  Lease pushed_lease;
+  Lease own_lease, pushed_lease, info_lease;
   ContainerReader container;
   std::unique_ptr<ContainerParser> parser;  ///< of pushed bytes
   bool complete = true;                     ///< no bytes will come
@@ -74,6 +74,16 @@ struct Decoder::Impl {
   Status check_time(double time) const;
   void look_ahead(uint32_t frame);
   Status parse_pushed(bool last);
+  /// Counts what there is before anything is read, contexts mostly, and small things that are not
+  /// counted later.
+  Status take_own() {
+    constexpr uint64_t kOwnBytes = uint64_t{7} << 14;
+    return own_lease.grow(account, kOwnBytes)
+               ? Status()
+               : Status::limit("a decoder needs more memory than the limit allows");
+  }
+  /// Tells what the container has from a group on.
+  Status tell(size_t first_group);
 
   // decoder_attributes.cpp
   Status find_attribute(uint32_t frame, uint32_t index, std::shared_ptr<const KeptAttribute>& kept);

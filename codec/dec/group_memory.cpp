@@ -1,5 +1,7 @@
 #include "codec/dec/group_memory.h"
 
+#include <algorithm>
+
 #include "codec/common/fields/field.h"
 #include "codec/common/motion/motion_model.h"
 #include "codec/common/prediction/weight_kernels.h"
@@ -10,36 +12,48 @@ namespace reeb {
 
 namespace {
 
-/// Of weights, graph and contexts of a field while it is decoded.
-constexpr uint64_t kBytesPerRow = 2600;
-constexpr uint64_t kFastBytesPerRow = 800;  ///< whose equations are not kept
-constexpr uint64_t kBytesPerTime = 3 * kBytesPerRow;
+// tests/limits/memory_test.cpp holds all of these to what there is. Of each row of a field while it
+// is decoded, beside the surface:
+constexpr uint64_t kFieldBytes = 280;                                ///< weights, uses, contexts
+constexpr uint64_t kKeptBytes = kFieldBytes + sizeof(RowEquations);  ///< and what is learned
+constexpr uint64_t kFastBytes = 240;
+constexpr uint64_t kLosslessBytes = 1850;  ///< whose equations have their right sides, too
+constexpr uint64_t kBytesPerTime = 7800;   ///< of the basis, with its three axes and its graph
 /// Of a reference mesh while it is decoded, without what its connectivity takes.
-constexpr uint64_t kMeshBytesPerVertex = 720, kMeshBytesPerFace = 80;
+constexpr uint64_t kMeshBytesPerVertex = 530, kMeshBytesPerFace = 50;
+/// Contexts of fields and of all else that is the same for any mesh.
+constexpr uint64_t kMeshModels = uint64_t{3} << 15;
+constexpr uint64_t kModels = uint64_t{3} << 17, kLosslessModels = uint64_t{5} << 17;
+constexpr uint64_t kGrowing = 3;  ///< a list that grows has its old block beside the new one
 
 /// What a group of a profile takes for each row of its fields.
 struct FieldMemory {
-  uint64_t row = 0;   ///< of the surface
-  uint64_t time = 0;  ///< with its three axes
+  uint64_t row = 0;     ///< of the surface
+  uint64_t time = 0;    ///< with its three axes
+  uint64_t models = 0;  ///< in all
 };
 
-FieldMemory field_memory(Profile profile) {
-  switch (profile) {
-    case Profile::kMain:
+FieldMemory field_memory(const GroupHeader& h, bool keep) {
+  switch (h.profile) {
+    case Profile::kMain: {
+      const bool anew = !keep && (h.flags & GroupHeader::kContinues) == 0 &&
+                        !Field::keeps_equations(h.component_count);
+      return {anew ? kFieldBytes : kKeptBytes, kBytesPerTime, kModels};
+    }
     case Profile::kThesis:
-      return {kBytesPerRow, kBytesPerTime};
+      return {kFieldBytes, 0, kModels};
     case Profile::kFast:
-      return {kFastBytesPerRow, kBytesPerTime};
+      return {kFastBytes, kBytesPerTime, kModels};
     case Profile::kLossless:
       break;
   }
-  return {kBytesPerRow, 0};
+  return {kLosslessBytes, 0, kLosslessModels};
 }
 
 /// Of the frames that a lossless group stores.
 uint64_t stored_memory(uint64_t vertices, const GroupHeader& h) {
-  return h.stored_count * (12 * vertices + 2 * sizeof(std::vector<float>)) +
-         2 * sizeof(uint32_t) * h.frame_count;
+  return h.stored_count * (12 * vertices + kGrowing * sizeof(std::vector<float>)) +
+         2 * kGrowing * sizeof(uint32_t) * h.frame_count;
 }
 
 uint64_t corrections_memory(const GroupHeader& h) {
@@ -51,17 +65,27 @@ uint64_t bytes_of(const std::vector<T, Allocator>& v) {
   return v.capacity() * sizeof(T);
 }
 
+/// Of the field of the surface, and then of planes that are rearranged while there is still what
+/// the next group learns from.
+uint64_t surface_memory(uint64_t vertices, const GroupHeader& h, bool keep) {
+  const uint64_t planes =
+      h.component_count * (4 * vertices + kGrowing * sizeof(std::vector<float>));
+  const uint64_t field = vertices * field_memory(h, keep).row;
+  if (h.profile == Profile::kThesis || h.profile == Profile::kLossless) return field + planes;
+  const uint64_t tiles = h.component_count * 4 * (vertices + kTileRows) + 2 * 4 * vertices;
+  return planes + std::max(field, tiles + (keep ? state_memory(vertices) : 0));
+}
+
 }  // namespace
 
 uint64_t reference_memory(const MeshHeader& header, uint64_t coded_triangles) {
   return header.vertex_count * kMeshBytesPerVertex + header.face_count * kMeshBytesPerFace +
-         coded_triangles * kConnectivityMemoryPerTriangle;
+         coded_triangles * kConnectivityMemoryPerTriangle + kMeshModels;
 }
 
-uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
-  const FieldMemory field = field_memory(h.profile);
+uint64_t group_memory(uint64_t vertices, const GroupHeader& h, bool keep) {
+  const FieldMemory field = field_memory(h, keep);
   const uint64_t components = h.component_count;
-  const uint64_t surface = vertices * (field.row + 4 * components);
   // The basis is there as it was decoded, by component in binary64, and by frame.
   const uint64_t basis = h.frame_count * (field.time + uint64_t{48} * (components + 1));
   const uint64_t motion = components * (sizeof(std::vector<MotionModel::Transform>) +
@@ -71,14 +95,11 @@ uint64_t group_memory(uint64_t vertices, const GroupHeader& h) {
       corrected ? CorrectionField::memory(vertices, h.frame_count, h.correction_count) +
                       corrections_memory(h)
                 : 0;
-  return surface + basis + motion + corrections + stored_memory(vertices, h);
+  return surface_memory(vertices, h, keep) + basis + motion + corrections +
+         stored_memory(vertices, h) + field.models;
 }
 
-// The estimator and its weights, what contexts look back on, and the contexts themselves.
-uint64_t state_memory(uint64_t vertices) {
-  constexpr uint64_t kBytesPerStateRow = sizeof(RowEquations) + 192;
-  return vertices * kBytesPerStateRow + sizeof(MagnitudeModel) + sizeof(Field);
-}
+uint64_t state_memory(uint64_t vertices) { return vertices * kKeptBytes + kModels; }
 
 uint64_t kept_memory(const DecodedSurface& s) {
   const PredictionGraph& graph = s.surface.graph;

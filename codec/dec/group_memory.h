@@ -13,8 +13,9 @@ namespace reeb {
 /// `coded_triangles`: that its connectivity announces.
 uint64_t reference_memory(const MeshHeader& header, uint64_t coded_triangles);
 
-/// Bytes that decoding a group takes at most, its surface included.
-uint64_t group_memory(uint64_t vertices, const GroupHeader& header);
+/// Bytes that decoding a group takes at most, beside its shot; `keep`: what it learns stays,
+/// for the next one.
+uint64_t group_memory(uint64_t vertices, const GroupHeader& header, bool keep);
 
 /// Bytes that what a group has learned takes, for the next one.
 uint64_t state_memory(uint64_t vertices);

@@ -148,8 +148,8 @@ Status GroupStore::decode_one(const GroupChunk& wanted, const Job& job, bool kee
   if (Status s = check_elements(wanted.header, vertices); !s.ok()) return s;
   const uint64_t kept = kept_memory(vertices, wanted.header);
   const uint64_t learned = keep && state.lease.bytes() == 0 ? state_memory(vertices) : 0;
-  const uint64_t all = group_memory(vertices, wanted.header) + wanted.size;
-  const uint64_t there = group->shot->lease.bytes() + state.lease.bytes();
+  const uint64_t all = group_memory(vertices, wanted.header, keep) + wanted.size;
+  const uint64_t there = state.lease.bytes();
   const uint64_t needed = std::max(all - std::min(all, there), kept + learned);
   if (Status s = acquire(needed, job.caller, group->lease); !s.ok()) return s;
   GroupChunk chunk = wanted;

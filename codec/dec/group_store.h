@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "bitstream/container.h"
+#include "bitstream/memory_account.h"
 #include "codec/common/base/sequence.h"
 #include "codec/common/base/stop.h"
 #include "codec/dec/decode_options.h"
 #include "codec/dec/group_decoder.h"
-#include "codec/dec/memory_account.h"
 
 namespace reeb {
 

@@ -20,8 +20,9 @@ Status check_header(const GroupTask& task) {
 /// What the group starts from.
 Status start_group(const GroupTask& task, GroupState& state) {
   if (!task.chunk.continues()) {
+    const uint32_t components = task.left != nullptr ? UINT32_MAX : task.header().component_count;
     state = start_closed_group(task.surface(), task.surface().points(), task.header().weak_prior(),
-                               task.threads, task.stop);
+                               task.threads, task.stop, components);
     return {};
   }
   state = std::move(task.before);
@@ -34,7 +35,7 @@ Status start_group(const GroupTask& task, GroupState& state) {
 
 Status decode_coefficients(const GroupTask& task, GroupState& state, Planes& planes) {
   const uint32_t count = task.header().component_count;
-  if (task.left == nullptr) state.coefficients->expect(count);
+  if (task.left == nullptr && task.chunk.continues()) state.coefficients->expect(count);
   const bool whole = decode_field(task.chunk.coefficients, count, *state.coefficients, task.stop);
   if (Status s = section_status(whole, "coefficient", task.stop); !s.ok()) return s;
   planes =
@@ -63,6 +64,7 @@ Status decode_main_group(const GroupTask& task, GroupSynthesis& out) {
   if (Status s = start_group(task, state); !s.ok()) return s;
   Planes planes, basis;
   if (Status s = decode_coefficients(task, state, planes); !s.ok()) return s;
+  if (task.left == nullptr) state.coefficients.reset();  // makes room
   if (Status s = decode_motion(task, 0, planes); !s.ok()) return s;
   const TemporalGraph temporal = build_temporal_graph(task.header().frame_count);
   if (Status s = decode_basis(task, temporal.graph, state, basis); !s.ok()) return s;

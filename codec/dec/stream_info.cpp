@@ -52,16 +52,17 @@ std::vector<StreamInfo::Gap> find_gaps(const ContainerReader& container, const S
   return gaps;
 }
 
-// These are few, so that they are told anew each time.
+// These are few, so that they are told anew each time. Like those of the container, they rise by
+// shot and index.
 void tell_attributes(const ContainerReader& container, StreamInfo& info) {
   info.attributes.clear();
   info.resources.clear();
   for (const AttributeChunk& a : container.attributes)
     info.attributes.push_back({a.header, a.size});
   for (const AttributeGroupChunk& g : container.attribute_groups) {
-    for (StreamInfo::AttributeInfo& a : info.attributes) {
-      if (a.header.shot == g.header.shot && a.header.index == g.header.index) a.bytes += g.size;
-    }
+    const AttributeChunk* a = container.attribute(g.header.shot, g.header.index);
+    if (a != nullptr)
+      info.attributes[static_cast<size_t>(a - container.attributes.data())].bytes += g.size;
   }
   for (const ResourceChunk& r : container.resources) info.resources.push_back({r.header, r.size});
   const bool all = container.bounds.size() == info.groups.size();
@@ -70,6 +71,24 @@ void tell_attributes(const ContainerReader& container, StreamInfo& info) {
 }
 
 }  // namespace
+
+// A list that grows has its old block beside the new one, which is twice as large.
+uint64_t info_memory(const ContainerReader& c) {
+  constexpr uint64_t kGrowing = 3, kReplaced = 2;
+  uint64_t texts = 0;
+  for (const MetadataEntry& m : c.metadata) texts += text_memory(m.key) + text_memory(m.value);
+  for (const AttributeChunk& a : c.attributes) texts += text_memory(a.header.name);
+  for (const ResourceChunk& r : c.resources)
+    texts += text_memory(r.header.name) + text_memory(r.header.media_type);
+  const uint64_t growing = c.references.size() * sizeof(StreamInfo::ShotInfo) +
+                           c.groups.size() * sizeof(StreamInfo::Group) +
+                           c.metadata.size() * sizeof(StreamInfo::metadata[0]) +
+                           c.attributes.size() * sizeof(StreamInfo::AttributeInfo) +
+                           c.resources.size() * sizeof(StreamInfo::ResourceInfo) +
+                           (c.groups.size() + 1) * sizeof(StreamInfo::Gap);
+  const uint64_t replaced = c.bounds.size() * sizeof(Box) + c.damaged.size() * sizeof(DamagedRange);
+  return sizeof(StreamInfo) + texts + kGrowing * growing + kReplaced * replaced;
+}
 
 void update_info(const ContainerReader& container, uint64_t file_bytes, bool complete,
                  size_t first_group, StreamInfo& info) {

@@ -65,6 +65,9 @@ struct StreamInfo {
   uint64_t file_bytes = 0;
 };
 
+/// Bytes of memory that telling what the container has takes at most.
+uint64_t info_memory(const ContainerReader& container);
+
 /// Adds what the container has from its group `first_group` on; what `info` has of those before it
 /// stays. `missing` is only found where the file is `complete`.
 void update_info(const ContainerReader& container, uint64_t file_bytes, bool complete,

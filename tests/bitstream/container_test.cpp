@@ -222,11 +222,12 @@ TEST_CASE("metadata are added to a whole file", "[container]") {
   const Bytes file = two_shot_file();
   Bytes more;
   REQUIRE(add_metadata(file, {{"unit", "cm"}, {"error", std::string(300, '1')}}, more).ok());
+  MemoryAccount account(Limits().max_memory);
   ContainerReader before, after;
   REQUIRE(before.parse(file, {}).ok());
   // Through a source, so that the seek table leads to the chunks.
   MemorySource source(more);
-  REQUIRE(after.open(source, {}).ok());
+  REQUIRE(after.open(source, {}, account).ok());
   CHECK(after.metadata == std::vector<MetadataEntry>{
                               {"name", "walk"}, {"unit", "cm"}, {"error", std::string(300, '1')}});
   CHECK(after.damaged.empty());

@@ -1,10 +1,21 @@
 #include "tests/codec/allocation_meter.h"
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
-#include <new>
 
-#ifdef __GLIBC__
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define REEB_SANITIZER_HEAP
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define REEB_SANITIZER_HEAP
+#endif
+
+#ifdef REEB_SANITIZER_HEAP
+#include <sanitizer/allocator_interface.h>
+#elif defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
@@ -13,49 +24,89 @@ namespace {
 std::atomic<size_t> held{0};
 std::atomic<size_t> most{0};
 
-size_t size_of([[maybe_unused]] void* block) {
-#ifdef __GLIBC__
-  return malloc_usable_size(block);
-#else
-  return 0;
-#endif
-}
-
-void* note(void* block) {
-  if (block == nullptr) throw std::bad_alloc();
-  const size_t now = held += size_of(block);
+[[maybe_unused]] void add(size_t size) {
+  const size_t now = held += size;
   size_t before = most;
   while (before < now && !most.compare_exchange_weak(before, now)) {
   }
-  return block;
-}
-
-void release(void* block) {
-  if (block == nullptr) return;
-  held -= size_of(block);
-  std::free(block);
 }
 
 }  // namespace
 
-void* operator new(size_t size) { return note(std::malloc(size > 0 ? size : 1)); }
-void* operator new(size_t size, const std::nothrow_t&) noexcept {
-  void* const block = std::malloc(size > 0 ? size : 1);
-  return block == nullptr ? nullptr : note(block);
+#ifdef REEB_SANITIZER_HEAP
+// The sanitizer's heap tells of every block.
+namespace {
+
+void note_block(const volatile void* block, size_t size) {
+  if (block != nullptr) add(size);
 }
-void* operator new(size_t size, std::align_val_t alignment) {
-  const auto a = static_cast<size_t>(alignment);
-  return note(std::aligned_alloc(a, (size + a - 1) / a * a));
+
+void note_release(const volatile void* block) {
+  if (block != nullptr) held -= __sanitizer_get_allocated_size(const_cast<const void*>(block));
 }
-void operator delete(void* block) noexcept { release(block); }
-void operator delete(void* block, size_t) noexcept { release(block); }
-void operator delete(void* block, const std::nothrow_t&) noexcept { release(block); }
-void operator delete(void* block, std::align_val_t) noexcept { release(block); }
-void operator delete(void* block, size_t, std::align_val_t) noexcept { release(block); }
+
+[[maybe_unused]] const int hooked =
+    __sanitizer_install_malloc_and_free_hooks(note_block, note_release);
+
+}  // namespace
+
+#elif defined(__GLIBC__)
+// What glibc puts in place of its own functions, operator new and the C library's calls included.
+extern "C" {
+
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* block, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* block);
+
+static void* note(void* block) {
+  if (block != nullptr) add(malloc_usable_size(block));
+  return block;
+}
+
+void* malloc(size_t size) noexcept { return note(__libc_malloc(size)); }
+void* calloc(size_t count, size_t size) noexcept { return note(__libc_calloc(count, size)); }
+void* memalign(size_t alignment, size_t size) noexcept {
+  return note(__libc_memalign(alignment, size));
+}
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  return note(__libc_memalign(alignment, size));
+}
+int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
+  *out = note(__libc_memalign(alignment, size));
+  return *out == nullptr ? ENOMEM : 0;
+}
+
+// Both blocks are there while one is copied.
+void* realloc(void* block, size_t size) noexcept {
+  const size_t before = block != nullptr ? malloc_usable_size(block) : 0;
+  void* const out = note(__libc_realloc(block, size));
+  if (out != nullptr || size == 0) held -= before;
+  return out;
+}
+
+void free(void* block) noexcept {
+  if (block == nullptr) return;
+  held -= malloc_usable_size(block);
+  __libc_free(block);
+}
+}
+
+namespace {
+
+// Blocks of their own pages would count up to a page more than is asked for.
+[[maybe_unused]] const int no_mappings = mallopt(M_MMAP_THRESHOLD, 1 << 25);
+
+}  // namespace
+#endif
 
 namespace reeb::test {
 
 AllocationMeter::AllocationMeter() : before_(held) { most = before_; }
-size_t AllocationMeter::peak() const { return most - before_; }
+size_t AllocationMeter::peak() const {
+  const size_t now = most;
+  return now > before_ ? now - before_ : 0;
+}
 
 }  // namespace reeb::test

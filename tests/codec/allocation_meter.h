@@ -1,4 +1,5 @@
-// Counts what this program holds by operator new, so that tests can bound it.
+// Counts what this program holds on its heap, by malloc or by operator new, so that tests can bound
+// it.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 namespace reeb::test {
 
 /// Largest number of bytes held at once since construction, less those held then; always 0 where
-/// the C library does not tell the size of a block.
+/// neither the C library nor a sanitizer tells of blocks.
 class AllocationMeter {
  public:
   AllocationMeter();

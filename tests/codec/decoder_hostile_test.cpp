@@ -217,7 +217,9 @@ TEST_CASE("limits are respected", "[hostile]") {
   CHECK(probe(bytes, limits).opened.code() == StatusCode::kLimitExceeded);
   limits = {.max_vertices = 176, .max_faces = 352, .max_frames = 9, .max_memory = 1u << 20};
   CHECK(probe(bytes, limits).frames == 9);
-  limits.max_memory = 100'000;
+  limits.max_memory = 100'000;  // a decoder alone takes more
+  CHECK(probe(bytes, limits).opened.code() == StatusCode::kLimitExceeded);
+  limits.max_memory = 200'000;
   CHECK(probe(bytes, limits).refused == 9);
 
   DecodeOptions options;

@@ -259,7 +259,7 @@ TEST_CASE("pushed bytes that are damaged or end early", "[player]") {
   REQUIRE(Decoder::open_pushed({}, decoder).ok());
   CHECK(decoder->push(Bytes(20, 'x')).code() == StatusCode::kCorrupt);
   DecodeOptions small;
-  small.limits.max_memory = 100'000;
+  small.limits.max_memory = 150'000;
   REQUIRE(Decoder::open_pushed(small, decoder).ok());
   CHECK(decoder->push(stream()).code() == StatusCode::kLimitExceeded);
 }

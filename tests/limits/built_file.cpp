@@ -1,12 +1,16 @@
 #include "tests/limits/built_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <utility>
 
 #include "bitstream/element_bound.h"
+#include "codec/common/fields/group_state.h"
+#include "codec/common/synthesis/correction_field.h"
 #include "codec/enc/lossless/lossless_group_encoder.h"
 #include "codec/enc/reference/reference_mesh_encoder.h"
 #include "entropy/range_coder.h"
+#include "entropy/rans.h"
 
 namespace reeb::test {
 
@@ -48,6 +52,42 @@ Bytes zero_basis(uint32_t frames, uint32_t components) {
   const TemporalGraph times = build_temporal_graph(frames);
   Field field(times.graph, basis_field_options(), 1);
   return code_zeros(field, components + 1);
+}
+
+Bytes zero_file(const CodedMesh& mesh, Profile profile, uint32_t frames, uint32_t components) {
+  GroupHeader h;
+  h.frame_count = frames;
+  h.profile = profile;
+  h.component_count = components;
+  Bytes coefficients, basis;
+  if (profile == Profile::kFast) {
+    coefficients = RansEncoder(std::min(kRansLanes, components)).finish();
+    basis = RansEncoder(std::min(kRansLanes, components + 1)).finish();
+  } else {
+    const GroupState state = start_closed_group(mesh.surface, mesh.surface.points(), false, 1);
+    coefficients = code_zeros(*state.coefficients, components);
+    basis = zero_basis(frames, components);
+  }
+  return file_of(mesh, h, {.coefficients = coefficients, .basis = basis});
+}
+
+Bytes corrected_file(const CodedMesh& mesh, uint32_t frames) {
+  GroupHeader h;
+  h.frame_count = frames;
+  h.flags = GroupHeader::kCorrected;
+  h.correction_step = 1;
+  h.correction_count = uint64_t{3} * frames * mesh.surface.rows();
+  const Bytes basis = zero_basis(frames, 0);
+  CorrectionField corrections(mesh.surface.graph, frames);
+  BinaryEncoder coder;
+  corrections.code(
+      coder,
+      [](uint32_t row, uint32_t, uint32_t) {
+        return Correction{row % 2 == 0 ? 1 : -1, false, 0};
+      },
+      [](auto...) { return true; });
+  const Bytes section = coder.finish();
+  return file_of(mesh, h, {.basis = basis, .corrections = section});
 }
 
 Bytes lossless_file(const Shape& shape, const std::vector<std::vector<float>>& frames, bool quick) {

@@ -36,6 +36,10 @@ Bytes file_of(const CodedMesh& mesh, const GroupHeader& header, const GroupSecti
 Bytes code_zeros(Field& field, uint32_t components);
 /// The basis of a group of so many planes, all zero.
 Bytes zero_basis(uint32_t frames, uint32_t components);
+/// A group of zeros: planes that cost no bits.
+Bytes zero_file(const CodedMesh& mesh, Profile profile, uint32_t frames, uint32_t components);
+/// A group of the main profile whose every coordinate of every frame is corrected.
+Bytes corrected_file(const CodedMesh& mesh, uint32_t frames);
 
 /// A lossless group on that mesh; `frames`: [row][xyz].
 Bytes lossless_file(const Shape& shape, const std::vector<std::vector<float>>& frames, bool quick);

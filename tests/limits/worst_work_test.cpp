@@ -4,10 +4,8 @@
 #include <catch2/catch.hpp>
 #include <ctime>
 
-#include "codec/common/fields/group_state.h"
 #include "codec/common/synthesis/correction_field.h"
 #include "entropy/range_coder.h"
-#include "entropy/rans.h"
 #include "tests/codec/allocation_meter.h"
 #include "tests/codec/hostile.h"
 #include "tests/limits/built_file.h"
@@ -37,24 +35,6 @@ void check_work(const Bytes& file) {
   INFO(file.size() << " bytes, " << seconds << " s, " << meter.peak() << " bytes of memory");
   CHECK(seconds <= kSlowness * (kStart + kSecondsPerByte * bytes));
   CHECK(static_cast<double>(meter.peak()) <= (1 << 20) + kMemoryPerByte * bytes);
-}
-
-/// A group of zeros: planes that cost no bits.
-Bytes zeros(const CodedMesh& mesh, Profile profile, uint32_t frames, uint32_t components) {
-  GroupHeader h;
-  h.frame_count = frames;
-  h.profile = profile;
-  h.component_count = components;
-  Bytes coefficients, basis;
-  if (profile == Profile::kFast) {
-    coefficients = RansEncoder(std::min(kRansLanes, components)).finish();
-    basis = RansEncoder(std::min(kRansLanes, components + 1)).finish();
-  } else {
-    const GroupState state = start_closed_group(mesh.surface, mesh.surface.points(), false, 1);
-    coefficients = code_zeros(*state.coefficients, components);
-    basis = zero_basis(frames, components);
-  }
-  return file_of(mesh, h, {.coefficients = coefficients, .basis = basis});
 }
 
 Shape empty_shape(const char* name) { return {.name = name, .connectivity = {}, .positions = {}}; }
@@ -110,7 +90,7 @@ TEST_CASE("no mesh asks for more than its bytes can", "[work]") {
     for (const bool plain : {false, true}) {
       INFO(shape.name << (plain ? ", plain" : ""));
       const CodedMesh mesh = code_mesh(shape, plain, 4);
-      check_work(zeros(mesh, plain ? Profile::kFast : Profile::kMain, 2, 1));
+      check_work(zero_file(mesh, plain ? Profile::kFast : Profile::kMain, 2, 1));
     }
   }
 }
@@ -120,9 +100,9 @@ TEST_CASE("no planes ask for more than their bytes can", "[work]") {
   const CodedMesh many = code_mesh(torus(80, 50), false, 12);
   for (const Profile profile : {Profile::kMain, Profile::kFast}) {
     INFO((profile == Profile::kMain ? "main" : "fast"));
-    check_work(zeros(point, profile, 2000, 60));
-    check_work(zeros(point, profile, 100, 300));
-    check_work(zeros(many, profile, 40, 100));
+    check_work(zero_file(point, profile, 2000, 60));
+    check_work(zero_file(point, profile, 100, 300));
+    check_work(zero_file(many, profile, 40, 100));
   }
 }
 

@@ -69,7 +69,12 @@ Field::Field(const PredictionGraph& graph, const FieldOptions& options, unsigned
       learned_components_(options.adaptive ? UINT32_MAX : 0) {}
 
 void Field::learn_reference(const GridPoints& points, const std::vector<uint32_t>& order) {
-  if (options_.predict) estimator_.observe_reference(points, order);
+  if (!options_.predict) return;
+  if (learned_components_ > kObservations) {
+    estimator_.observe_reference(points, order);
+  } else {
+    estimator_.borrow_reference(points, order);
+  }
 }
 
 void Field::expect(uint32_t components) {

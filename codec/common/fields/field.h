@@ -38,11 +38,19 @@ class Field {
   /// From now on, finding weights throws Stopped where it is requested.
   void set_stop(const StopToken& stop) { estimator_.set_stop(stop); }
 
-  /// Weights from the reference positions; call before the first component, surface graphs only.
+  /// Whether a field that no more than so many components are expected of keeps what its rows have
+  /// learned, which is most of what it takes; else that is found again when it is needed.
+  static constexpr bool keeps_equations(uint32_t components) {
+    return components > kObservations + 1;
+  }
+
+  /// Weights from the reference positions, which must outlive the field; call before the first
+  /// component, surface graphs only.
   void learn_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
   /// Promises that there are no more than `components` before the field is used up: what would be
-  /// learned for later ones is not. The values do not depend on it.
+  /// learned for later ones is not. The values do not depend on it. To be called first, or for a
+  /// group that continues another.
   void expect(uint32_t components);
 
   /// Codes the next component. `residual(row, prediction, step, bins)` gives the quantized residual

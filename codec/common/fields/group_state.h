@@ -16,8 +16,9 @@ struct GroupState {
 };
 
 /// State of a group of the main profile that starts from the reference mesh alone; `weak_prior` as
-/// in its header.
+/// in its header; `components`: the most that come before it is used up.
 GroupState start_closed_group(const SurfaceGraph& surface, const GridPoints& points,
-                              bool weak_prior, unsigned threads, const StopToken& stop = {});
+                              bool weak_prior, unsigned threads, const StopToken& stop = {},
+                              uint32_t components = UINT32_MAX);
 
 }  // namespace reeb

@@ -16,15 +16,13 @@ namespace {
 /// The positions are exact to their noise.
 void observe_rows(const PredictionGraph& graph, const GridPoints& points,
                   const std::vector<uint32_t>& order, const uint32_t rows[kRowsAtOnce],
-                  const WeightKernels& kernels, BatchVector<RowEquations>& equations) {
+                  const WeightKernels& kernels, RowEquations* const out[kRowsAtOnce]) {
   constexpr double kBending = 2e-3;
   PointDifferences y{};
-  RowEquations* out[kRowsAtOnce];
   uint32_t most = 0;
   for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
     const uint32_t r = rows[l];
     const PredictionGraph::Row& row = graph.rows[r];
-    out[l] = &equations[r];
     most = std::max(most, uint32_t{row.count});
     if (row.count == 0) continue;
     int64_t spread = 0;
@@ -71,13 +69,30 @@ WeightEstimator::WeightEstimator(const PredictionGraph& graph, const WeightOptio
 void WeightEstimator::observe_reference(const GridPoints& points,
                                         const std::vector<uint32_t>& order) {
   equations_.resize(graph_.size());
+  solve_reference([&](uint32_t first) {
+    uint32_t eight[kRowsAtOnce];
+    RowEquations* out[kRowsAtOnce];
+    for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+      eight[l] = std::min(first + l, graph_.size() - 1);
+      out[l] = &equations_[eight[l]];
+    }
+    observe_rows(graph_, points, order, eight, kernels_, out);
+  });
+}
+
+void WeightEstimator::borrow_reference(const GridPoints& points,
+                                       const std::vector<uint32_t>& order) {
+  borrowed_ = {points, &order};
+  solve_reference([](uint32_t) {});
+}
+
+template <class Prepare>
+void WeightEstimator::solve_reference(Prepare prepare) {
   std::vector<uint32_t> rows(graph_.size());
   std::iota(rows.begin(), rows.end(), 0u);
   for (uint32_t first = 0; first < graph_.size(); first += kRowsAtOnce) {
     stop_.check();
-    uint32_t eight[kRowsAtOnce];
-    for (uint32_t l = 0; l < kRowsAtOnce; ++l) eight[l] = std::min(first + l, graph_.size() - 1);
-    observe_rows(graph_, points, order, eight, kernels_, equations_);
+    prepare(first);
     solve_eight(rows, first, {});  // while they are at hand
   }
   std::fill(misses_.begin(), misses_.end(), uint8_t{0});
@@ -85,7 +100,7 @@ void WeightEstimator::observe_reference(const GridPoints& points,
 
 // Not before: a field that learns nothing needs none, and what the reference gives is written once.
 void WeightEstimator::make_equations() {
-  if (equations_.empty()) make_batches(graph_.size(), stop_, equations_);
+  if (equations_.empty() && !borrowed_) make_batches(graph_.size(), stop_, equations_);
 }
 
 WeightEstimator::List WeightEstimator::list(const Planes& planes) const {
@@ -166,19 +181,48 @@ void WeightEstimator::solve_eight(const std::vector<uint32_t>& rows, uint32_t fi
   for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
     // Past the end the last row comes again; its results are dropped.
     row[l] = rows[first + std::min(l, count - 1)];
+    out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;
+  }
+  if (borrowed_) {
+    solve_anew(row, list, out);
+    return;
+  }
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
     if (first + l + 1 < rows.size()) {
       prefetch(graph_.rows[rows[first + l + 1]]);
       prefetch(equations_[rows[first + l + 1]]);
     }
     if (l < count) fold(row[l], list);
-    out[l] = l < count ? &weights_[size_t{row[l]} * kMaxNeighbours] : dropped;
   }
+  kernels_.solve(task(graph_.rows.data(), equations_.data()), row, out);
+}
+
+void WeightEstimator::solve_anew(const uint32_t row[kRowsAtOnce], const List& list,
+                                 float* const* out) const {
+  RowEquations equations[kRowsAtOnce];
+  RowEquations* to[kRowsAtOnce];
+  PredictionGraph::Row rows[kRowsAtOnce];
+  uint32_t places[kRowsAtOnce];
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+    to[l] = &equations[l];
+    rows[l] = graph_.rows[row[l]];
+    places[l] = l;
+  }
+  observe_rows(graph_, borrowed_->points, *borrowed_->order, row, kernels_, to);
+  for (uint32_t l = 0; l < kRowsAtOnce; ++l) {
+    const PredictionGraph::Row& r = rows[l];
+    kernels_.fold(equations[l], nullptr,
+                  {list.data(), scale_, r.neighbour.data(), r.count, row[l], 0, observations_});
+  }
+  kernels_.solve(task(rows, equations), places, out);
+}
+
+SolveTask WeightEstimator::task(const PredictionGraph::Row* rows,
+                                const RowEquations* equations) const {
   const double ring = options_.ring_deviation;
   const double extra = options_.extra_deviation;
-  kernels_.solve(
-      {graph_.rows.data(), equations_.data(), options_.sum_to_one ? nullptr : targets_.data(),
-       1 / (ring * ring), 1 / (extra * extra)},
-      row, out);
+  return {rows, equations, options_.sum_to_one ? nullptr : targets_.data(), 1 / (ring * ring),
+          1 / (extra * extra)};
 }
 
 }  // namespace reeb

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "codec/common/base/batches.h"
@@ -45,6 +46,11 @@ class WeightEstimator {
   /// observed yet.
   void observe_reference(const GridPoints& points, const std::vector<uint32_t>& order);
 
+  /// The same where no more than kObservations components will be learned from: nothing of that is
+  /// kept, which is most of what an estimator takes, but found again whenever a row is solved for.
+  /// The grid and `order` must outlive the estimator, and it must not fade.
+  void borrow_reference(const GridPoints& points, const std::vector<uint32_t>& order);
+
   /// Decoded components, a value for each row; the last ones are those that are being learned from.
   using Planes = std::vector<std::vector<float>>;
 
@@ -77,6 +83,9 @@ class WeightEstimator {
 
   List list(const Planes& planes) const;
   void make_equations();
+  /// From the reference alone; `prepare(eight)` is called before each eight rows.
+  template <class Prepare>
+  void solve_reference(Prepare prepare);
   /// Starts a new list of observations: rows that missed learn from the old one, the others agree
   /// with it.
   void end_list(const Planes& planes);
@@ -85,6 +94,15 @@ class WeightEstimator {
   std::vector<uint32_t> take_missed(uint32_t misses);
   /// For rows[first] and the seven after it.
   void solve_eight(const std::vector<uint32_t>& rows, uint32_t first, const List& list);
+  SolveTask task(const PredictionGraph::Row* rows, const RowEquations* equations) const;
+  /// The same from nothing but the reference and the list.
+  void solve_anew(const uint32_t row[kRowsAtOnce], const List& list, float* const* out) const;
+
+  /// Positions that are there to learn from again.
+  struct Reference {
+    GridPoints points;
+    const std::vector<uint32_t>* order;
+  };
 
   static constexpr uint8_t kNeverSolved = 255;
 
@@ -101,6 +119,7 @@ class WeightEstimator {
   std::vector<uint8_t> misses_;          ///< since the row was solved for
   std::vector<uint32_t> by_count_;  ///< rows: those solved for together have as many neighbours
   std::vector<float> weights_;
+  std::optional<Reference> borrowed_;
 };
 
 /// Misses that a row is re-solved for after component k: few at first, while it knows little.

@@ -86,7 +86,8 @@ uint64_t attribute_surface_memory(uint64_t elements) {
 
 uint64_t AttributeGroupParts::memory(uint64_t sites) const {
   uint64_t most = 0;
-  for (const GroupChunk& part : parts) most = std::max(most, group_memory(sites, part.header));
+  for (const GroupChunk& part : parts)
+    most = std::max(most, group_memory(sites, part.header, false));
   return most + kept(sites);
 }
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "bitstream/container.h"
+#include "bitstream/memory_account.h"
 #include "codec/common/base/attributes.h"
 #include "codec/dec/attributes/animated_decoder.h"
 #include "codec/dec/attributes/site_numbers.h"
 #include "codec/dec/group_store.h"
-#include "codec/dec/memory_account.h"
 
 namespace reeb {
 

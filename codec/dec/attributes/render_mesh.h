@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/memory_account.h"
 #include "codec/common/base/sequence.h"
-#include "codec/dec/memory_account.h"
 
 namespace reeb {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/memory_account.h"
 #include "bitstream/status.h"
-#include "codec/dec/memory_account.h"
 
 namespace reeb {
 

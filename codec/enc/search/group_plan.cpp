@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "codec/common/fields/field.h"
+#include "codec/dec/group_memory.h"
 #include "codec/enc/search/profile_tools.h"
 
 namespace reeb {
@@ -15,9 +17,24 @@ constexpr uint64_t kGroupSamples = 8'000'000;
 constexpr uint32_t kShortestGroup = 16, kLongestOpen = 128, kLongestClosed = 256;
 constexpr uint32_t kRunGroups = 4;  ///< that a seek decodes at most
 
+// Frames of a closed group whose rows' learning a decoder need not keep.
+constexpr uint32_t kSmallGroup = 5;
+static_assert(!Field::keeps_equations(3 * kSmallGroup));
+
 uint32_t default_group_length(const Shot& shot, uint32_t longest) {
   const uint64_t by_time = kGroupSamples / shot.connectivity.vertex_count;
-  return static_cast<uint32_t>(std::clamp<uint64_t>(by_time, kShortestGroup, longest));
+  return static_cast<uint32_t>(
+      std::min<uint64_t>(longest, std::max<uint64_t>(by_time, kShortestGroup)));
+}
+
+/// True where a decoder that keeps what rows learn would come near the memory that it is allowed
+/// unless told otherwise; the shot takes its part of that, too.
+bool learns_too_much(const Shot& shot, Profile profile) {
+  GroupHeader h;
+  h.frame_count = kShortestGroup;
+  h.component_count = 3 * kShortestGroup;
+  return profile == Profile::kMain &&
+         group_memory(shot.connectivity.vertex_count, h, true) > Limits().max_memory * 3 / 4;
 }
 
 /// Lengths as equal as can be, none above `longest`.
@@ -38,12 +55,13 @@ std::vector<uint32_t> split_by(uint32_t frames, uint32_t length) {
 }  // namespace
 
 GroupPlan plan_groups(const Shot& shot, const EncodeOptions& options) {
-  const bool open = options.open_groups != 0 && tools_of(options.profile).open_groups;
+  const bool small = options.open_groups <= 0 && learns_too_much(shot, options.profile);
+  const bool open = options.open_groups != 0 && tools_of(options.profile).open_groups && !small;
   GroupPlan plan;
   if (options.group_length > 0) {
     plan.lengths = split_by(shot.frame_count, options.group_length);
   } else {
-    const uint32_t longest = open ? kLongestOpen : kLongestClosed;
+    const uint32_t longest = small ? kSmallGroup : open ? kLongestOpen : kLongestClosed;
     plan.lengths = split_evenly(shot.frame_count, default_group_length(shot, longest));
   }
   if (options.open_groups > 0) plan.open_groups = static_cast<uint32_t>(options.open_groups);

@@ -57,7 +57,7 @@ struct Opened {
 /// A limit that the peak of decoding one group does not leave room for another beside.
 uint64_t memory_of_one(const Opened& o) {
   const uint64_t vertices = o.container.references[0].mesh_header.vertex_count;
-  return group_memory(vertices, o.container.groups[0].header);
+  return group_memory(vertices, o.container.groups[0].header, false);
 }
 
 }  // namespace

@@ -108,6 +108,22 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
+/// All weights after each component; every third row misses it.
+std::vector<std::vector<float>> follow(Learner learner, const Fixture& f) {
+  std::vector<std::vector<float>> out;
+  const float* first = learner.estimator.weights(0);
+  const auto note = [&] {
+    out.emplace_back(first, first + size_t{f.surface.graph.size()} * kMaxNeighbours);
+  };
+  note();
+  for (uint32_t o = 0; o < f.planes.size(); ++o) {
+    learner.observe(f.planes[o], f.noise[o], [o](uint32_t r) { return (r + o) % 3 == 0; });
+    learner.solve();
+    note();
+  }
+  return out;
+}
+
 /// Eight rows at work, from row 40 of the fixture on.
 std::vector<float> run_kernels(const WeightKernels& kernels, const Fixture& f, bool sum_to_one) {
   const auto observations = static_cast<uint32_t>(f.planes.size());
@@ -323,4 +339,20 @@ TEST_CASE("rows need more misses the more they know", "[weights]") {
   const std::vector<std::pair<uint32_t, uint32_t>> expected = {{0, 1},  {31, 1}, {32, 2},
                                                                {95, 2}, {96, 4}, {1u << 20, 4}};
   for (const auto& [k, misses] : expected) CHECK(misses_to_solve(k) == misses);
+}
+
+TEST_CASE("what is found again is what would have been kept", "[weights]") {
+  const Fixture f(torus(20, 12));
+  REQUIRE(f.planes.size() > 2);
+  REQUIRE(f.planes.size() <= kObservations);
+  const GridPoints points(f.xyz);
+  Learner kept(f), borrowed(f);
+  kept.estimator.observe_reference(points, f.surface.order);
+  borrowed.estimator.borrow_reference(points, f.surface.order);
+  const auto expected = follow(kept, f), found = follow(borrowed, f);
+  for (size_t o = 0; o < expected.size(); ++o) {
+    INFO("after " << o << " components");
+    CHECK(same_bits(found[o], expected[o]));
+  }
+  CHECK_FALSE(same_bits(expected.front(), expected.back()));
 }

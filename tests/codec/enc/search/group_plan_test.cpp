@@ -35,6 +35,16 @@ TEST_CASE("groups that nobody asks for are soon there and soon decoded", "[group
   CHECK(plan_groups(shot_of(100'000, 160), options).lengths == std::vector<uint32_t>{80, 80});
   CHECK(plan_groups(shot_of(1'000'000, 33), options).lengths == std::vector<uint32_t>{11, 11, 11});
 
+  // What 5 million vertices learn would take 10 GB: groups of at most 15 components keep nothing.
+  plan = plan_groups(shot_of(5'000'000, 13), options);
+  CHECK(plan.lengths == std::vector<uint32_t>{5, 4, 4});
+  CHECK(plan.open_groups == 0);
+  options.open_groups = 2;
+  plan = plan_groups(shot_of(5'000'000, 32), options);
+  CHECK(plan.lengths == std::vector<uint32_t>{16, 16});
+  CHECK(plan.open_groups == 2);
+  options.open_groups = -1;
+
   // Closed ones, which cost more, are longer.
   options.profile = Profile::kFast;
   plan = plan_groups(shot_of(7000, 300), options);

@@ -1,8 +1,10 @@
 // Who holds how much of the memory that the caller allows.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace reeb {
@@ -73,5 +75,13 @@ class Lease {
   MemoryAccount* account_ = nullptr;
   uint64_t bytes_ = 0;
 };
+
+/// Bytes that up to `count` texts of so many bytes together take beside their objects, which hold
+/// short ones themselves.
+inline uint64_t text_memory(uint64_t bytes, uint64_t count) {
+  constexpr uint64_t kShortest = 16, kRounding = 24;  // of those apart; by which blocks are longer
+  return bytes + kRounding * std::min(count, bytes / kShortest);
+}
+inline uint64_t text_memory(const std::string& text) { return text_memory(text.size(), 1); }
 
 }  // namespace reeb
