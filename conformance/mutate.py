@@ -294,6 +294,7 @@ def main():
     parser.add_argument("--again", action="store_true", help="try those that survived again: there are new streams")
     parser.add_argument("--only", default="", help="mutants whose place or text match this expression")
     parser.add_argument("--sample", type=int, help="as many mutants, chosen at random")
+    parser.add_argument("--seed", type=int, default=1, help="of the sample: another one is another sample")
     arguments = parser.parse_args()
     out = arguments.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
@@ -306,7 +307,7 @@ def run(tree, program, out, arguments):
     core = run_streams(program, stream_files(arguments.streams))
     witnesses = run_streams(program, stream_files(arguments.witness))
     mutants = [m for m in tree.mutants() if re.search(arguments.only, "%s:%d:%d %s" % m[1:5])]
-    random.Random(1).shuffle(mutants)
+    random.Random(arguments.seed).shuffle(mutants)
     mutants = mutants[:arguments.sample]
     results = Results(out / "results.tsv", "sources %s" % text_digest(tree.texts))
     print("%d mutants, %d sites do not compile; %d streams, %.2f s" %
