@@ -41,7 +41,7 @@ bool AnsBits::next() {
 bool AnsSymbols::read_probabilities(ByteReader& in, uint32_t most_symbols) {
   const uint64_t count = in.varuint();
   if (!in.ok() || count == 0 || count > most_symbols) return false;
-  std::array<uint32_t, kMostSymbols> probability = {};
+  std::array<uint32_t, kMaxSymbols> probability = {};
   for (uint64_t i = 0; i < count; ++i) {
     const uint8_t first = in.u8();
     const uint32_t more = first & 3u;
@@ -53,7 +53,7 @@ bool AnsSymbols::read_probabilities(ByteReader& in, uint32_t most_symbols) {
     probability[i] = first >> 2;
     for (uint32_t k = 0; k < more; ++k) probability[i] |= uint32_t{in.u8()} << (8 * k + 6);
   }
-  for (uint32_t i = 0; i < kMostSymbols; ++i) below_[i + 1] = below_[i] + probability[i];
+  for (uint32_t i = 0; i < kMaxSymbols; ++i) below_[i + 1] = below_[i] + probability[i];
   return in.ok() && below_.back() == 1u << kSymbolBits;
 }
 
@@ -67,7 +67,7 @@ uint8_t AnsSymbols::next() {
   const uint32_t state = state_.filled();
   const uint32_t rest = state & ((1u << kSymbolBits) - 1);
   uint32_t symbol = 0;
-  for (uint32_t i = 1; i < kMostSymbols; ++i) symbol += rest >= below_[i] ? 1 : 0;
+  for (uint32_t i = 1; i < kMaxSymbols; ++i) symbol += rest >= below_[i] ? 1 : 0;
   const uint32_t probability = below_[symbol + 1] - below_[symbol];
   state_.set((state >> kSymbolBits) * probability + rest - below_[symbol]);
   return static_cast<uint8_t>(symbol);

@@ -55,7 +55,7 @@ class AnsBits {
 
 class AnsSymbols {
  public:
-  static constexpr uint32_t kMostSymbols = 5;
+  static constexpr uint32_t kMaxSymbols = 5;
 
   /// Reads the probabilities of 1 to `most_symbols` symbols and takes the code. False where they
   /// are malformed.
@@ -67,7 +67,7 @@ class AnsSymbols {
   bool read_probabilities(ByteReader& in, uint32_t most_symbols);
 
   AnsState state_;
-  std::array<uint32_t, kMostSymbols + 1> below_ = {};  ///< sum of the probabilities before each
+  std::array<uint32_t, kMaxSymbols + 1> below_ = {};  ///< sum of the probabilities before each
 };
 
 }  // namespace reeb
