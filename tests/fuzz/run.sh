@@ -38,7 +38,7 @@ keep() {
   done
 }
 
-cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ \
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" -DREEB_BUILD_FUZZERS=ON -DREEB_SANITIZE=address,undefined >/dev/null
 cmake --build "$build" --target "${fuzzers[@]/%/_fuzz}" fuzz_seeds
 rm -rf "$build/seeds"
