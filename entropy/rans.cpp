@@ -82,7 +82,7 @@ double class_bits(const RansCounts& counts, const RansFrequencies& f, uint32_t s
   return bits;
 }
 
-void append_u32(std::vector<uint8_t>& out, uint32_t x) {
+void append_word(std::vector<uint8_t>& out, uint32_t x) {
   for (int i = 0; i < 4; ++i) out.push_back(static_cast<uint8_t>(x >> (8 * i)));
 }
 
@@ -176,11 +176,11 @@ std::vector<uint8_t> RansEncoder::finish() const {
   const std::vector<uint8_t> table_bytes = table_coder.finish();
   const std::vector<uint8_t> raw_bytes = raw.finish();
   std::vector<uint8_t> out;
-  append_u32(out, static_cast<uint32_t>(table_bytes.size()));
-  append_u32(out, static_cast<uint32_t>(raw_bytes.size()));
+  append_word(out, static_cast<uint32_t>(table_bytes.size()));
+  append_word(out, static_cast<uint32_t>(raw_bytes.size()));
   out.insert(out.end(), table_bytes.begin(), table_bytes.end());
   out.insert(out.end(), raw_bytes.begin(), raw_bytes.end());
-  for (uint32_t l = 0; l < lanes_; ++l) append_u32(out, state[l]);
+  for (uint32_t l = 0; l < lanes_; ++l) append_word(out, state[l]);
   for (size_t i = words.size(); i-- > 0;) {
     out.push_back(static_cast<uint8_t>(words[i]));
     out.push_back(static_cast<uint8_t>(words[i] >> 8));

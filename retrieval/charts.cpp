@@ -42,7 +42,7 @@ class ChartCutter {
   }
 
  private:
-  void add(std::vector<Patch> parts) {
+  void add(std::vector<Patch>&& parts) {
     for (Patch& part : parts) {
       if (!(part.area > 0) || part.area < least_) continue;
       if (part.boundaries.empty()) {

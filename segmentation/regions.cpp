@@ -102,6 +102,7 @@ std::vector<RegionLink> border_links(const Surface& surface, const std::vector<u
     }
   }
   std::vector<RegionLink> links;
+  links.reserve(borders.size());
   for (const auto& [pair, length] : borders) links.push_back({pair.first, pair.second, length, 0});
   return links;
 }

@@ -86,7 +86,7 @@ Status find_missing(Decoder& decoder, const std::function<void(double)>& progres
   std::vector<float> positions;
   uint32_t next = 0;
   for (const StreamInfo::Group& group : info.groups) {
-    const Status status = decode_one_frame(decoder, group.first_frame, positions);
+    Status status = decode_one_frame(decoder, group.first_frame, positions);
     if (!status.ok() && status.code() != StatusCode::kCorrupt) return status;
     if (!status.ok()) continue;
     add_gap(next, group.first_frame, missing);

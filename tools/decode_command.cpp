@@ -118,7 +118,7 @@ class StreamWriter {
     out.clear();
     if (Status status = decoder_.attributes(frame, described, indices); !status.ok()) return status;
     for (size_t i = 0; i < indices.size(); ++i) {
-      const Status status = decoder_.decode_attribute(frame, indices[i], out.emplace_back());
+      Status status = decoder_.decode_attribute(frame, indices[i], out.emplace_back());
       if (status.ok()) continue;
       if (status.code() != StatusCode::kCorrupt) return status;
       out.pop_back();

@@ -220,7 +220,7 @@ Status choose_frames(const Options& o, ReadReport& read, Sequence& sequence) {
   if (!read.missing.empty())
     return Status::invalid("--frames needs a sequence that is whole; decode and name its files");
   std::vector<uint32_t> numbers;
-  const Status status = o.frames.numbers(sequence.frame_count(), numbers);
+  Status status = o.frames.numbers(sequence.frame_count(), numbers);
   if (!status.ok()) return status;
   read.remainders = pick_remainders(sequence, read.remainders, numbers);
   sequence = pick_frames(sequence, numbers);

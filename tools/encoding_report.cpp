@@ -78,7 +78,7 @@ void reserve_report(const EncodingReport& aim, std::map<std::string, std::string
 
 Status fill_report(const EncodingReport& report, std::vector<uint8_t>& file) {
   std::vector<uint8_t> filled;
-  const Status status = add_metadata(file, {{kReportKey, report_text(report)}}, filled);
+  Status status = add_metadata(file, {{kReportKey, report_text(report)}}, filled);
   if (status.ok()) file = std::move(filled);
   return status;
 }

@@ -106,8 +106,8 @@ class Indexer {
     if (stored_in(file.path, file.shapes)) return {};
     Sequence sequence;
     ReadReport report;
-    const Status status = read_sequence(
-        {file.path}, {.threads = 1, .max_memory = options_.max_memory}, sequence, report);
+    Status status = read_sequence({file.path}, {.threads = 1, .max_memory = options_.max_memory},
+                                  sequence, report);
     if (!status.ok()) return status;
     std::string complaint;
     file.shapes = sign_frames(sequence, options_.poses, complaint);

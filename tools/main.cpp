@@ -1,7 +1,9 @@
 // The `reeb` command.
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <iterator>
+#include <new>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +16,8 @@
 #include "tools/version.h"
 
 namespace {
+
+using namespace reeb::tools;
 
 // What follows the program's name, last one first as CLI11 takes it. It would take "[a]" apart as a
 // list, though a folder may be named so.
@@ -28,10 +32,7 @@ std::vector<std::string> arguments(int argc, char** argv) {
   return out;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace reeb::tools;
+int run(int argc, char** argv) {
   remove_output_on_interrupt();
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, which is told
   CLI::App app("Codec for animated triangle meshes. reeb COMMAND --help explains a command.",
@@ -61,9 +62,19 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::ostringstream help;
     return app.exit(error, help) == 0 ? print(help.str()) : kExitUsage;
-  } catch (const std::bad_alloc&) {
-    Console({}).error("out of memory; close other programs or encode a shorter sequence");
-    return kExitFailed;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    Console({}).error("out of memory; close other programs or encode a shorter sequence");
+  } catch (const std::exception& error) {
+    Console({}).error(std::string("this should not happen, please report it: ") + error.what());
+  }
+  return kExitFailed;
 }

@@ -33,7 +33,8 @@ struct Coordinates {
 };
 
 double squared_spread(const Coordinates& a) {
-  const auto n = static_cast<double>(a.size() / 3);
+  const size_t vertices = a.size() / 3;
+  const auto n = static_cast<double>(vertices);
   std::array<double, 3> mean{};
   for (size_t i = 0; i < a.size(); ++i) mean[i % 3] += a[i];
   for (double& m : mean) m /= n;

@@ -39,7 +39,7 @@ struct Options {
 // Frames from 0: those asked for, or some spread over the sequence.
 Status select_frames(const FrameSelection& asked, uint32_t count, std::vector<uint32_t>& out) {
   if (!asked.empty()) {
-    const Status status = asked.numbers(count, out);
+    Status status = asked.numbers(count, out);
     for (uint32_t& frame : out) --frame;
     return status;
   }
@@ -50,7 +50,7 @@ Status select_frames(const FrameSelection& asked, uint32_t count, std::vector<ui
 Status load(const Options& o, const std::vector<std::string>& names, Console& console,
             Sequence& out, std::string& damage) {
   ReadReport report;
-  const Status status = read_sequence(
+  Status status = read_sequence(
       names, {.threads = o.threads, .max_memory = o.max_memory, .progress = console.bar("reading")},
       out, report);
   if (!status.ok()) return status;

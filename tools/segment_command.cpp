@@ -78,6 +78,7 @@ class Segmented {
       for (uint32_t& frame : shown) --frame;
     }
     std::vector<PictureFrame> frames;
+    frames.reserve(shown.size());
     for (const uint32_t t : shown) {
       frames.push_back({t, shot_.frame(t), skeleton_.place(shot_.frame(t))});
     }

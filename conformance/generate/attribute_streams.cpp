@@ -42,7 +42,8 @@ Shot with_texture() {
   for (size_t i = 0; i < shot.connectivity.corners.size(); ++i) {
     const uint32_t v = shot.connectivity.corners[i];
     const bool left = i / 4 % 8 < 4;
-    const auto x = static_cast<float>(v % 9), y = static_cast<float>(v / 9);
+    const uint32_t column = v % 9, row = v / 9;
+    const auto x = static_cast<float>(column), y = static_cast<float>(row);
     uv.push_back(left ? 0.05f * x + 0.001f * y * y : 0.9f - 0.05f * x);
     uv.push_back(0.06f * y);
   }
@@ -68,7 +69,8 @@ Shot with_motion(const Shape& shape, uint32_t frames) {
     std::vector<float> values;
     for (uint32_t t = 0; t < frames; ++t) {
       for (size_t e = 0; e < elements; ++e) {
-        const double phase = 0.7 * t + 0.3 * static_cast<double>(e / 2);
+        const size_t pair = e / 2;
+        const double phase = 0.7 * t + 0.3 * static_cast<double>(pair);
         values.push_back(static_cast<float>(static_cast<int>(500 * std::sin(phase))) / 1000);
       }
     }

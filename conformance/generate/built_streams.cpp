@@ -226,6 +226,7 @@ void add_corrections(Maker& m) {
 
 void add_meshes(Maker& m) {
   std::vector<int32_t> grid;
+  grid.reserve(36);
   for (int32_t i = 0; i < 36; ++i) grid.push_back(i * i * 50);
   m.add("listed_faces",
         "Every face listed: of 1, 2 and 300 corners, repeated, over and over the same vertex.",

@@ -179,12 +179,12 @@ Sequence on_grids(const Shape& shape, uint32_t frames) {
 Shape shuffled(const Shape& shape) {
   const uint32_t n = shape.connectivity.vertex_count;
   Shape out = shape;
+  std::vector<uint32_t> place(n);
   for (uint32_t v = 0; v < n; ++v) {
-    const uint32_t w = static_cast<uint32_t>((uint64_t{v} * 7919 + 13) % n);
-    for (uint32_t a = 0; a < 3; ++a) out.positions[w * 3 + a] = shape.positions[v * 3 + a];
+    place[v] = static_cast<uint32_t>((uint64_t{v} * 7919 + 13) % n);
+    for (uint32_t a = 0; a < 3; ++a) out.positions[place[v] * 3 + a] = shape.positions[v * 3 + a];
   }
-  for (uint32_t& v : out.connectivity.corners)
-    v = static_cast<uint32_t>((uint64_t{v} * 7919 + 13) % n);
+  for (uint32_t& v : out.connectivity.corners) v = place[v];
   return out;
 }
 

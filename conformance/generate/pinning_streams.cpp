@@ -22,6 +22,12 @@ class Maker {
   std::vector<Stream> streams;
 };
 
+/// Of item i of a table `columns` wide.
+float row_of(uint32_t i, uint32_t columns) {
+  const uint32_t row = i / columns;
+  return static_cast<float>(row);
+}
+
 /// Vertices all over the place.
 Shape scattered_vertices(const char* name, uint32_t count, uint32_t seed) {
   Shape s{.name = name, .connectivity = {}, .positions = {}};
@@ -78,7 +84,7 @@ Shape fans(std::initializer_list<uint32_t> spokes) {
 Shape separate(uint32_t triangles) {
   Shape s{.name = "separate triangles", .connectivity = {}, .positions = {}};
   for (uint32_t i = 0; i < triangles; ++i) {
-    const auto x = static_cast<float>(i % 8), y = static_cast<float>(i / 8);
+    const auto x = static_cast<float>(i % 8), y = row_of(i, 8);
     const uint32_t v = s.add_vertex(x, y, 0);
     s.add_vertex(x + static_cast<float>(i % 3), y, 1);
     s.add_vertex(x, y + 1, static_cast<float>(i % 2));
@@ -161,7 +167,7 @@ void add_clump(Shape& s, uint32_t size) {
       {0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {0, 3, 6}, {1, 4, 7}, {2, 5, 8},
       {0, 4, 8}, {1, 5, 6}, {2, 3, 7}, {0, 5, 7}, {1, 3, 8}, {2, 4, 6}};
   const uint32_t first = s.connectivity.vertex_count;
-  for (uint32_t i = 0; i < size; ++i) s.add_vertex(static_cast<float>(first / 40), 0, 0);
+  for (uint32_t i = 0; i < size; ++i) s.add_vertex(row_of(first, 40), 0, 0);
   for (const auto& t : size == 7 ? kSeven : kNine)
     s.add_face({first + t[0], first + t[1], first + t[2]});
 }
@@ -179,7 +185,7 @@ Bytes clumps(uint32_t of_seven, uint32_t of_nine) {
 Shape band(uint32_t vertices) {
   Shape s{.name = "band", .connectivity = {}, .positions = {}};
   for (uint32_t v = 0; v < vertices; ++v)
-    s.add_vertex(static_cast<float>(v % 20), static_cast<float>(v / 20), 0);
+    s.add_vertex(static_cast<float>(v % 20), row_of(v, 20), 0);
   for (uint32_t v = 0; v + 5 < vertices; ++v) {
     s.add_face({v, v + 1, v + 5});
     s.add_face({v, v + 2, v + 4});
@@ -207,7 +213,7 @@ Shape wheel(uint32_t spokes) {
 Shape star(uint32_t triangles) {
   Shape s{.name = "star", .connectivity = {}, .positions = {}};
   for (uint32_t i = 0; i < 2 * triangles + 1; ++i)
-    s.add_vertex(static_cast<float>(i % 24), static_cast<float>(i / 24), 0);
+    s.add_vertex(static_cast<float>(i % 24), row_of(i, 24), 0);
   for (uint32_t i = 0; i < triangles; ++i) s.add_face({2 * triangles, i, triangles + i});
   return s;
 }

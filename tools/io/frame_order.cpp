@@ -319,6 +319,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 FrameOrder order_by_name(const std::vector<fs::path>& files) {
   std::vector<std::string> texts;
+  texts.reserve(files.size());
   for (const fs::path& file : files) texts.push_back(file.string());
   if (texts.size() < 2) return {files, {}, {}, {}};
   for (const bool glued_signs : {false, true}) {

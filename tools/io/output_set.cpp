@@ -182,7 +182,7 @@ Status OutputSet::begin_files() {
     const fs::path here = file.target.parent_path();
     if (file.started || file.written == file.real || begun == here) continue;
     int descriptor = -1;
-    const Status status = open(file, descriptor);
+    Status status = open(file, descriptor);
     if (descriptor >= 0) ::close(descriptor);
     if (!status.ok()) return status;
     begun = here;
@@ -298,7 +298,7 @@ Status OutputSet::commit() {
   std::vector<File*> placed;
   for (File& file : files_) {
     if (!file.started) continue;
-    const Status status = place(file);
+    Status status = place(file);
     if (!status.ok()) {
       for (const File* p : placed) take_back(*p);
       return status;

@@ -58,9 +58,9 @@ class HeaderReader {
     const auto ends_in = [](const TextCursor& at, std::string_view end) {
       return at.rest().starts_with(end);
     };
-    if (ends_in(in_, "\r\n") && !(ends_in(first_end, "\r") && !ends_in(first_end, "\r\n"))) {
-      in_.advance(2);
-    } else if (ends_in(in_, "\n\r") && ends_in(first_end, "\n\r")) {
+    const bool lone_return = ends_in(first_end, "\r") && !ends_in(first_end, "\r\n");
+    if ((ends_in(in_, "\r\n") && !lone_return) ||
+        (ends_in(in_, "\n\r") && ends_in(first_end, "\n\r"))) {
       in_.advance(2);
     } else if (in_.at_line_end()) {
       in_.advance(1);

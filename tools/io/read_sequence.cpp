@@ -58,7 +58,7 @@ class FrameNotes {
       notes_.push_back(name + ": not kept: " + names);
     }
     if (mesh.notes.empty() || ++odd_files_ > 1) return;
-    for (const std::string& note : mesh.notes) notes_.push_back(name + ": " + note);
+    for (const std::string& note : mesh.notes) notes_.emplace_back(name).append(": ").append(note);
   }
 
   void finish() {

@@ -152,9 +152,9 @@ Status check_finite(const Soup& soup) {
                          "frame or leave it out");
 }
 
-using Point = std::array<float, 3>;
+using Position = std::array<float, 3>;
 
-Point point(const Soup& soup, size_t corner) {
+Position point(const Soup& soup, size_t corner) {
   const float* const p = &soup.positions[3 * corner];
   return {p[0], p[1], p[2]};
 }
@@ -176,7 +176,7 @@ bool fits_reference(const Soup& soup, const Connectivity& reference) {
 // which takes its time on no input.
 Connectivity weld(const Soup& soup) {
   struct Corner {
-    Point point;
+    Position point;
     uint32_t index = 0;
   };
   std::vector<Corner> sorted;

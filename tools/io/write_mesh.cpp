@@ -152,9 +152,9 @@ std::string write_ply(const Connectivity& connectivity, std::span<const float> p
   return out;
 }
 
-using Point = std::array<float, 3>;
+using Position = std::array<float, 3>;
 
-Point unit_normal(const Point& a, const Point& b, const Point& c) {
+Position unit_normal(const Position& a, const Position& b, const Position& c) {
   std::array<double, 3> u{};
   std::array<double, 3> w{};
   for (size_t i = 0; i < 3; ++i) {
@@ -174,14 +174,14 @@ std::string write_stl(const Connectivity& connectivity, std::span<const float> p
   out.resize(84);
   uint32_t count = 0;
   const auto point = [&](uint32_t v) {
-    return Point{positions[size_t{3} * v], positions[size_t{3} * v + 1],
-                 positions[size_t{3} * v + 2]};
+    return Position{positions[size_t{3} * v], positions[size_t{3} * v + 1],
+                    positions[size_t{3} * v + 2]};
   };
   for_each_face(connectivity, [&](std::span<const uint32_t> face) {
     for (size_t i = 2; i < face.size(); ++i, ++count) {
-      const std::array<Point, 3> corners{point(face[0]), point(face[i - 1]), point(face[i])};
+      const std::array<Position, 3> corners{point(face[0]), point(face[i - 1]), point(face[i])};
       for (const float x : unit_normal(corners[0], corners[1], corners[2])) append_float(out, x);
-      for (const Point& p : corners) {
+      for (const Position& p : corners) {
         for (const float x : p) append_float(out, x);
       }
       out.append(2, '\0');

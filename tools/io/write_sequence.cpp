@@ -61,7 +61,7 @@ Status write_frames(const FrameSource& source, const std::vector<fs::path>& targ
     for (size_t i = 0; i < pending.size(); ++i) {
       PendingFrame& p = pending[i];
       p.target = targets[first + i];
-      const Status status = source.frame(static_cast<uint32_t>(first + i), p.frame);
+      Status status = source.frame(static_cast<uint32_t>(first + i), p.frame);
       if (!status.ok()) return status;
     }
     parallel_for(pending.size(), options.threads, [&](size_t i) {
@@ -162,7 +162,7 @@ class ResourceFiles {
   Status write(OutputSet& files) const {
     for (const auto& [target, resource] : files_) {
       const auto* bytes = reinterpret_cast<const char*>(resource->bytes.data());
-      const Status status = files.write(target, {bytes, resource->bytes.size()});
+      Status status = files.write(target, {bytes, resource->bytes.size()});
       if (!status.ok()) return status;
     }
     return {};

@@ -29,7 +29,8 @@ FrameView frame_view(const Sequence& sequence, uint32_t frame) {
     if (frame < shot.frame_count) return {&shot.connectivity, shot.frame(frame), &shot, frame};
     frame -= shot.frame_count;
   }
-  return {};
+  static const Connectivity kNothing;
+  return {&kNothing, {}};
 }
 
 std::vector<double> displacements(const FrameView& a, const FrameView& b) {

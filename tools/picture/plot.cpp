@@ -143,8 +143,9 @@ class Plot {
       if (!drawable(p)) continue;
       const std::string x = brief(x_.place(p.first), 6);
       const std::string y = brief(y_.place(p.second), 6);
-      points += x + "," + y + " ";
-      svg_ += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3\" fill=\"" + colour + "\"/>\n";
+      points.append(x).append(",").append(y).append(" ");
+      svg_.append("<circle cx=\"").append(x).append("\" cy=\"").append(y);
+      svg_.append("\" r=\"3\" fill=\"").append(colour).append("\"/>\n");
     }
     const std::string stroke =
         "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"" + dash;

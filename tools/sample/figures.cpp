@@ -371,6 +371,7 @@ Shot shot_of(const TriangleMesh& mesh) {
 const std::vector<std::string>& figure_kinds() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
+    list.reserve(std::size(kKinds));
     for (const Kind& kind : kKinds) list.emplace_back(kind.name);
     return list;
   }();

@@ -47,7 +47,7 @@ class Cloth {
   const std::vector<Vec3>& positions() const { return now_; }
 
  private:
-  static size_t index(int row, int column) { return static_cast<size_t>(row * kSide + column); }
+  static size_t index(int row, int column) { return static_cast<size_t>(row) * kSide + column; }
   static bool hooked(size_t v) { return v < kSide && v % kHookDistance == 0; }
 
   void add_links(int row, int column) {
