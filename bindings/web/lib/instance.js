@@ -67,9 +67,7 @@ class Instance {
       return this.#exports[name](...values);
     } catch (error) {
       this.#exports = undefined; // what it was at is half done
-      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-      // The decoder throws for a lack of memory and for nothing else; exceptions are traps here.
-      throw new ReebError('out of memory', 'out of memory', { cause: error });
+      throw error;
     }
   }
 

@@ -16,11 +16,11 @@ export async function open(source, options = {}) {
 /** Opens a file while it arrives, as soon as its first frame can be decoded; `clip.complete` tells when all of it is
  * there, and fails where it does not come whole. */
 export async function openStreaming(source, options = {}) {
-  const reader = (await streamOf(source, options)).getReader();
-  options.signal?.addEventListener('abort', () => reader.cancel(options.signal.reason).catch(() => {}), { once: true });
+  const pieces = new Pieces(await streamOf(source, options));
+  options.signal?.addEventListener('abort', () => pieces.cancel(), { once: true });
   return opened(options, async (instance) => {
     instance.call('open_push', memoryOf(options));
-    const arrival = new Arrival(instance, reader, options);
+    const arrival = new Arrival(instance, pieces, options);
     await arrival.untilFirstFrame();
     return new Clip(instance, { complete: arrival.untilEnd() });
   });
@@ -61,25 +61,63 @@ async function opened(options, make) {
   }
 }
 
-/** Pushes what a reader gives. */
+/** What a stream gives, kept until it is asked for: a stream that fails forgets what it still has. */
+class Pieces {
+  #reader;
+  #kept = [];
+  #end; // once there is one, with its `error` if it is one
+  #wake = () => {};
+
+  constructor(stream) {
+    this.#reader = stream.getReader();
+    this.#readAll();
+  }
+
+  async #readAll() {
+    try {
+      for (let piece; !(piece = await this.#reader.read()).done; this.#wake()) this.#kept.push(piece.value);
+      this.#end = {};
+    } catch (error) {
+      this.#end = { error };
+    }
+    this.#wake();
+  }
+
+  /** The next piece; undefined at the end. */
+  async next() {
+    while (this.#kept.length === 0 && !this.#end) await new Promise((resolve) => (this.#wake = resolve));
+    if (this.#kept.length > 0) return this.#kept.shift();
+    if (this.#end.error) throw this.#end.error;
+    return undefined;
+  }
+
+  cancel() {
+    this.#reader.cancel().catch(() => {});
+  }
+}
+
+/** Pushes pieces. */
 class Arrival {
-  constructor(instance, reader, options) {
+  constructor(instance, pieces, options) {
     this.instance = instance;
-    this.reader = reader;
+    this.pieces = pieces;
     this.options = options;
     this.bytes = 0;
     this.ended = false;
   }
 
   async step() {
-    const { done, value } = await this.reader.read();
+    const piece = await this.pieces.next();
     this.options.signal?.throwIfAborted();
-    if (this.instance.closed) return (this.ended = true);
-    if (done) {
+    if (this.instance.closed) {
+      this.pieces.cancel();
+      return (this.ended = true);
+    }
+    if (piece) {
+      this.#push(piece);
+    } else {
       this.ended = true;
       this.instance.call('push_end');
-    } else {
-      this.#push(value);
     }
     this.options.onProgress?.({ bytes: this.bytes, frameCount: this.frameCount() });
     return this.ended;

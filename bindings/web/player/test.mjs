@@ -17,7 +17,7 @@ let server;
 let browser;
 
 before(async () => {
-  server = await serve(page, data);
+  server = await serve(page, data, join(page, '../player/square'));
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
                                     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
 });
@@ -29,7 +29,7 @@ after(async () => {
 const desktop = { width: 1100, height: 700 };
 const phone = { width: 390, height: 780 };
 
-// A page with a file; fails with what the page says to its console.
+// A page with a file; `problems` is what goes wrong on it.
 async function opened(query, options = {}) {
   const context = await browser.newContext({ viewport: desktop, ...options });
   context.setDefaultTimeout(40000);
@@ -102,6 +102,35 @@ for (const [name, viewport, colorScheme] of [['desktop', desktop, 'light'], ['de
   });
 }
 
+test('a texture is the right way up', async () => {
+  const tab = await opened('?file=square.reeb');
+  await ready(tab);
+  await tab.click('#play');
+  await tab.selectOption('#shading', { label: 'texture: four.png' });
+  await tab.waitForTimeout(1000);
+  await picture(tab, 'texture');
+  // Of each colour the middle of its pixels, from the left and from above.
+  const middles = await tab.evaluate(() => {
+    const from = document.getElementById('canvas');
+    const small = Object.assign(document.createElement('canvas'), { width: 200, height: 200 });
+    const context = small.getContext('2d');
+    context.drawImage(from, 0, 0, 200, 200);
+    const { data } = context.getImageData(0, 0, 200, 200);
+    const sums = {};
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b, a] = data.subarray(i, i + 4);
+      const name = a < 200 ? '' : r > 2 * g && r > 2 * b ? 'red' : g > 2 * r && g > 2 * b ? 'green' : b > 2 * r && b > 2 * g ? 'blue' : '';
+      sums[name] ??= [0, 0, 0];
+      [(i / 4) % 200, Math.floor(i / 800), 1].forEach((x, k) => (sums[name][k] += x));
+    }
+    return Object.fromEntries(Object.entries(sums).map(([name, [x, y, n]]) => [name, [x / n, y / n]]));
+  });
+  const { red, green, blue } = middles;
+  assert.ok(red[0] < green[0] - 5 && Math.abs(red[1] - green[1]) < 30, 'red is to the left of green');
+  assert.ok(red[1] < blue[1] - 5 && Math.abs(red[0] - blue[0]) < 30, 'red is above blue');
+  await tab.context().close();
+});
+
 test('distances are those of the vertices of the files', () => {
   const mesh = (sourceVertices, ...xyz) => ({ sourceVertices: Uint32Array.from(sourceVertices),
                                               geometry: { attributes: { position: { array: Float32Array.from(xyz.flat()) } } } });
@@ -169,4 +198,22 @@ test('the package gives the same bits in the browser as under node', async () =>
   assert.deepEqual(Float32Array.from(given), clip.renderMesh(frame).frame(frame));
   clip.close();
   await tab.context().close();
+});
+
+test('the example plays', async () => {
+  const example = await serve(fileURLToPath(new URL('../../../examples/web', import.meta.url)), join(page, '..'), data);
+  const tab = await (await browser.newContext({ viewport: desktop })).newPage();
+  tab.setDefaultTimeout(40000);
+  const problems = [];
+  tab.on('pageerror', (error) => problems.push(error.message));
+  await tab.goto(`${example.address}/?file=fast.reeb`);
+  await tab.waitForSelector('canvas');
+  await tab.waitForTimeout(1500);
+  const shots = [await tab.screenshot()];
+  await tab.waitForTimeout(700);
+  shots.push(await tab.screenshot());
+  assert.ok(!shots[0].equals(shots[1]), 'it moves');
+  assert.deepEqual(problems, []);
+  await tab.context().close();
+  example.close();
 });

@@ -171,6 +171,28 @@ test('a connection that breaks leaves what has come', async () => {
   await assert.rejects(openStreaming(new Blob([whole.subarray(0, 60)])), (e) => e instanceof ReebError);
 });
 
+test('what has come before a stream fails is not lost, however late it is read', async () => {
+  const whole = file('fast');
+  const failing = new ReadableStream({
+    start(control) {
+      control.enqueue(whole.subarray(0, 5000));
+      setTimeout(() => control.error(new Error('cut')), 0);
+    },
+  });
+  const clip = await openStreaming(failing, { wasm: new URL('reeb.wasm?late', folder) }); // not compiled yet
+  await assert.rejects(clip.complete, /cut/);
+  assert.ok(clip.frame(0).every(Number.isFinite));
+  clip.close();
+});
+
+test('opening ends where its signal says so', async () => {
+  const control = new AbortController();
+  const endless = new ReadableStream({ pull: () => new Promise(() => {}) });
+  const opening = openStreaming(endless, { signal: control.signal });
+  setTimeout(() => control.abort(), 20);
+  await assert.rejects(opening, { name: 'AbortError' });
+});
+
 test('a worker gives the same frames', async () => {
   const clip = await worker.open(file('fast'));
   const whole = await open(file('fast'));

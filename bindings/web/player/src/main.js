@@ -1,5 +1,5 @@
 // The page: files, time, what is shown of them.
-import { LoopOnce, LoopRepeat } from 'three';
+import { LoopOnce, LoopRepeat, RepeatWrapping, SRGBColorSpace, Texture } from 'three';
 import { ReebLoader } from 'reeb/three';
 
 import { shares, sizes } from './colours.js';
@@ -78,6 +78,9 @@ function listShadings(mesh) {
   mesh.attributes
     .filter((a) => ['vertex', 'corner'].includes(a.domain) && a.semantic !== 'index')
     .forEach((a) => select.add(new Option(`${a.name} (${a.semantic})`, `values:${a.index}`)));
+  if (mesh.geometry.attributes.uv) {
+    mesh.resources.forEach(({ name, mediaType }, i) => mediaType.startsWith('image/') && select.add(new Option(`texture: ${name}`, `texture:${i}`)));
+  }
   select.value = 'smooth';
   stage.look({ shading: 'smooth' });
 }
@@ -85,10 +88,18 @@ function listShadings(mesh) {
 async function setShading() {
   const [shading, index] = at('shading').value.split(':');
   const [mesh] = state.meshes;
-  state.attribute = index === undefined ? undefined : mesh?.attributes.find((a) => a.index === Number(index));
+  state.attribute = shading === 'values' ? mesh?.attributes.find((a) => a.index === Number(index)) : undefined;
   state.painted = -1;
   await paint();
+  if (shading === 'texture') stage.look({ texture: await textureOf(mesh.resources[index]) });
   stage.look({ shading });
+}
+
+async function textureOf(resource) {
+  const image = new Blob([await resource.bytes()], { type: resource.mediaType });
+  const texture = new Texture(await createImageBitmap(image, { imageOrientation: 'flipY' })); // v goes up
+  Object.assign(texture, { flipY: false, colorSpace: SRGBColorSpace, wrapS: RepeatWrapping, wrapT: RepeatWrapping, needsUpdate: true });
+  return texture;
 }
 
 // Colours follow the pose; one at a time.

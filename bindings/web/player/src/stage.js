@@ -40,7 +40,7 @@ export class Stage {
     this.frameAll();
   }
 
-  /** `shading`: 'smooth', 'normals', or 'values' where colours are painted. */
+  /** `shading`: 'smooth', 'normals', 'texture' for `texture`, or 'values' where colours are painted. */
   look(look) {
     this.#look = { ...this.#look, ...look };
     for (const mesh of this.#meshes) mesh.material = this.#material(mesh);
@@ -49,9 +49,10 @@ export class Stage {
   // A file's own materials are kept, to come back to.
   #material(mesh) {
     mesh.userData.own ??= coloured(mesh.material);
-    const { shading, wireframe } = this.#look;
+    const { shading, wireframe, texture } = this.#look;
     const painted = shading === 'values' || (this.#meshes.length > 1 && mesh === this.#meshes[1]);
     if (shading === 'normals' && !painted) return new MeshNormalMaterial({ wireframe, side: 2 });
+    if (shading === 'texture' && !painted) return new MeshStandardMaterial({ map: texture, wireframe, roughness: 0.8, side: 2 });
     if (painted) return new MeshStandardMaterial({ vertexColors: true, wireframe, roughness: 0.8, side: 2 });
     for (const material of [mesh.userData.own].flat()) Object.assign(material, { wireframe, side: 2 });
     return mesh.userData.own;
