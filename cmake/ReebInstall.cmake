@@ -65,6 +65,13 @@ if(REEB_BUILD_ENCODER)
       COMPONENT encoder)
   endforeach()
   reeb_install_component(tools reeb)
+  set(REEB_PLAYER "" CACHE PATH "Built player (bindings/web/player/build.sh) to install for `reeb view`")
+  if(REEB_PLAYER)
+    install(
+      DIRECTORY ${REEB_PLAYER}/
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/reeb/player
+      COMPONENT tools)
+  endif()
   if(TARGET reeb_man_page)
     install(
       FILES ${PROJECT_BINARY_DIR}/tools/reeb.1

@@ -24,6 +24,7 @@ void add_compare_command(CLI::App& app, int& exit_code);
 void add_sample_command(CLI::App& app, int& exit_code);
 void add_picture_command(CLI::App& app, int& exit_code);
 void add_plot_command(CLI::App& app, int& exit_code);
+void add_view_command(CLI::App& app, int& exit_code);
 
 /// -q, -v, --progress.
 void add_console_options(CLI::App& command, ConsoleOptions& options);

@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   add_sample_command(app, exit_code);
   add_picture_command(app, exit_code);
   add_plot_command(app, exit_code);
+  add_view_command(app, exit_code);
   add_segment_command(app, exit_code);
   add_index_command(app, exit_code);
   add_search_command(app, exit_code);
