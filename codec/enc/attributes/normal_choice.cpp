@@ -74,7 +74,7 @@ class NormalChoice {
     return &normals_[(t * elements_ + element) * 3];
   }
   void find_sites(double degrees, IntervalEncoder& coder, Sites& sites) const;
-  void find_corrections(const Sites& sites);
+  void find_corrections(const Sites& sites, double degrees);
   bool within(const Sites& sites, double degrees, std::span<const float> corrections,
               bool every_frame) const;
   bool code_still(const Sites& sites, IntervalEncoder& coder, ComputedNormals& out) const;
@@ -116,10 +116,10 @@ bool NormalChoice::plain(ComputedNormals& out) {
   return true;
 }
 
-// Of each site the mean of its elements, relative to the axes there; 0 where no element asks for
-// it.
-void NormalChoice::find_corrections(const Sites& sites) {
-  const AngleTest test(attribute_.max_angle);
+// Of each site the mean of its elements, relative to the axes there; 0 where what is computed is
+// so near to all of them.
+void NormalChoice::find_corrections(const Sites& sites, double degrees) {
+  const AngleTest test(degrees);
   corrections_.assign(size_t{2} * frames_ * sites.mesh.count, 0);
   needed_.assign(sites.mesh.count, false);
   for (uint32_t t = 0; t < frames_; ++t) {
@@ -225,11 +225,15 @@ bool NormalChoice::turned(ComputedNormals& out) {
   IntervalEncoder coder;
   Sites sites;
   find_sites(std::min(attribute_.max_angle, attribute_.corrected_angle / 2), coder, sites);
-  find_corrections(sites);
+  find_corrections(sites, attribute_.max_angle);
   out.coded.header.flags |= AttributeHeader::kCorrected;
-  if (!code_still(sites, coder, out)) return choose_turning(std::move(sites), coder, out);
-  out.coded.section = coder.finish();
-  return true;
+  if (code_still(sites, coder, out)) {
+    out.coded.section = coder.finish();
+    return true;
+  }
+  // What turns errs in every frame, also where it stands for 0.
+  find_corrections(sites, std::max(attribute_.max_angle - attribute_.corrected_angle, 0.0));
+  return choose_turning(std::move(sites), coder, out);
 }
 
 }  // namespace
