@@ -227,21 +227,6 @@ Status choose_frames(const Options& o, ReadReport& read, Sequence& sequence) {
   return {};
 }
 
-/// Attributes are told by the numbers of vertices, which then are lost.
-Status check_reorder(const Options& o, const Sequence& sequence) {
-  if (!o.encoder.reorder) return {};
-  std::string names;
-  for (const Shot& shot : sequence.shots) {
-    for (const Attribute& a : shot.attributes) names += (names.empty() ? "" : ", ") + a.name;
-    if (!names.empty()) break;
-  }
-  for (const Resource& r : sequence.resources) names += (names.empty() ? "" : ", ") + r.name;
-  if (names.empty()) return {};
-  return Status::invalid(
-      "--reorder does not keep attributes, and there are " + names +
-      "; leave it out, or drop them by --attribute '*=drop' and without --embed");
-}
-
 void keep_signature(Sequence& sequence, Console& console) {
   std::string complaint;
   const std::vector<SignedFrame> frames = sign_frames(sequence, kStoredSignatures, complaint);
@@ -265,7 +250,7 @@ int run(Options& o) {
   const ReadOptions reading{.threads = o.threads,
                             .max_memory = o.max_memory,
                             .allow_gaps = o.allow_gaps,
-                            .list_order = o.lossless,
+                            .list_order = o.lossless && !o.encoder.reorder,
                             .embed = o.embed,
                             .progress = console.bar("reading")};
   if (status.ok()) status = read_sequence(o.inputs, reading, sequence, read);
@@ -273,7 +258,6 @@ int run(Options& o) {
   console.say_all(read.notes);
   status = choose_frames(o, read, sequence);
   console.say_all(apply_attribute_rules(o.attributes, o.lossless, sequence));
-  if (status.ok()) status = check_reorder(o, sequence);
   if (status.ok()) status = check_room(o.output, likely_bytes(o, sequence));
   if (!status.ok()) return fail(console, status);
   console.detail(counted(sequence.frame_count(), "frame") + " of " +
@@ -375,7 +359,7 @@ void add_coding_options(CLI::App& command, Options& o) {
       ->group(group);
   command
       .add_flag("--reorder", o.encoder.reorder,
-                "Do not keep the vertex order of the input (smaller)")
+                "Do not keep the order of vertices and lists of the input (smaller)")
       ->group(group);
   command
       .add_option_function<std::string>(

@@ -66,8 +66,6 @@ Status check(const Sequence& sequence, const EncodeOptions& options) {
   for (size_t i = 0; i < sequence.shots.size(); ++i) {
     if (Status s = check_shot(sequence.shots[i], lossless, i); !s.ok()) return s;
   }
-  if (options.reorder && has_attributes(sequence))
-    return Status::invalid("attributes need the vertex order; encode without reorder");
   return check_attributes(sequence);
 }
 
@@ -202,6 +200,7 @@ Status add_attributes(const Sequence& sequence, const EncodeOptions& options, En
       .profile = options.profile == Profile::kFast ? Profile::kFast : Profile::kMain,
       .quick = options.effort <= kQuickEffort,
       .bounds = options.bounds,
+      .reorder = options.reorder,
       .trials = options.effort,
       .threads = resolve_threads(options.threads)};
   for (int trial = 0;; ++trial) {

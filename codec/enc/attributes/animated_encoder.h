@@ -19,6 +19,7 @@ struct AnimatedOptions {
   Profile profile = Profile::kMain;  ///< main or fast, where errors are allowed
   bool quick = false;                ///< lossless: the method that decodes quicker
   bool bounds = false;               ///< boxes of the groups are wanted, too
+  bool reorder = false;              ///< the file has the vertices in another order
   int trials = 5;                    ///< of the step under corrections
   unsigned threads = 1;
 };

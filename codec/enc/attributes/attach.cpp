@@ -15,6 +15,7 @@
 #include "codec/enc/attributes/bounds.h"
 #include "codec/enc/attributes/normal_choice.h"
 #include "codec/enc/reference/face_matching.h"
+#include "codec/enc/reference/reference_mesh_encoder.h"
 
 namespace reeb {
 
@@ -47,8 +48,13 @@ Status check_attribute(const Shot& shot, const Attribute& a) {
 /// Where the elements of the input are in the output: input element of each output element.
 class ElementOrder {
  public:
-  ElementOrder(const Connectivity& output, const Connectivity& input)
-      : faces_(match_faces(output, input)) {
+  /// `vertices`: input vertex of each output vertex; empty where they are the same.
+  ElementOrder(const Connectivity& output, Connectivity input, std::vector<uint32_t> vertices)
+      : vertices_(std::move(vertices)) {
+    std::vector<uint32_t> renamed(vertices_.size());
+    for (uint32_t v = 0; v < vertices_.size(); ++v) renamed[vertices_[v]] = v;
+    for (uint32_t& v : input.corners) v = renamed.empty() ? v : renamed[v];
+    faces_ = match_faces(output, input);
     std::vector<size_t> first{0};
     for (const uint32_t size : input.face_sizes) first.push_back(first.back() + size);
     for (size_t f = 0; f < faces_.index.size(); ++f) {
@@ -60,8 +66,11 @@ class ElementOrder {
   }
 
   Attribute arrange(const Attribute& a) const {
-    if (a.domain == Domain::kVertex || a.domain == Domain::kShot) return a;
-    const std::vector<uint32_t>& order = a.domain == Domain::kFace ? faces_.index : corners_;
+    const bool same = a.domain == Domain::kVertex && vertices_.empty();
+    if (same || a.domain == Domain::kShot) return a;
+    const std::vector<uint32_t>& order = a.domain == Domain::kVertex ? vertices_
+                                         : a.domain == Domain::kFace ? faces_.index
+                                                                     : corners_;
     Attribute out = a;
     const size_t bytes = a.element_bytes(), frame = order.size() * bytes;
     for (size_t start = 0; start + frame <= a.values.size() && frame > 0; start += frame) {
@@ -74,6 +83,7 @@ class ElementOrder {
   size_t faces() const { return faces_.index.size(); }
 
  private:
+  std::vector<uint32_t> vertices_;
   FaceOrder faces_;
   std::vector<uint32_t> corners_;
 };
@@ -131,7 +141,9 @@ Status ShotAttributes::write(const ReferenceChunk& reference, ContainerWriter& w
   std::vector<uint32_t> coding(mesh.vertex_count);
   std::iota(coding.begin(), coding.end(), 0u);
   const ShotSurface surface{mesh.connectivity, output_grid(mesh.grid, coding, mesh.output_index)};
-  const ElementOrder order(mesh.connectivity, shot_.connectivity);
+  std::vector<uint32_t> vertices;
+  if (options_.reorder) vertices = ReferencePlan(shot_.connectivity).input_vertices();
+  const ElementOrder order(mesh.connectivity, shot_.connectivity, std::move(vertices));
   if (order.faces() != shot_.connectivity.face_sizes.size())
     return Status::invalid("attributes: the file has other faces than the sequence");
   for (uint32_t i = 0; i < shot_.attributes.size(); ++i) {

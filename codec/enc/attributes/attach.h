@@ -16,7 +16,7 @@ bool has_attributes(const Sequence& sequence);
 /// kInvalidArgument, with the attribute's name, where one is not as `Attribute` asks.
 Status check_attributes(const Sequence& sequence);
 
-/// `file`: the positions of `sequence`, in vertex order, as `encode` makes them; becomes the file
+/// `file`: the positions of `sequence`, as `encode` makes them; becomes the file
 /// with all that the sequence has. Pre-condition: check_attributes.
 Status attach_attributes(const Sequence& sequence, const AnimatedOptions& options,
                          std::vector<uint8_t>& file);

@@ -132,6 +132,12 @@ class Planner {
 };
 
 // Numbers the vertices: those of points as they come, then the others as in the input.
+std::vector<uint32_t> inverse(const std::vector<uint32_t>& order) {
+  std::vector<uint32_t> out(order.size());
+  for (uint32_t v = 0; v < order.size(); ++v) out[order[v]] = v;
+  return out;
+}
+
 std::vector<uint32_t> number_vertices(const Connectivity& input, const DracoEncoding& encoding) {
   std::vector<uint32_t> coding(input.vertex_count, kNone);
   uint32_t next = 0;
@@ -207,9 +213,7 @@ Status write_order(const MeshState& state, const std::vector<uint32_t>& coding,
 
 Status write_face_order(const Connectivity& input, const MeshState& state,
                         const std::vector<uint32_t>& coding, std::vector<uint8_t>& bytes) {
-  std::vector<uint32_t> output_index(coding.size());
-  for (uint32_t v = 0; v < coding.size(); ++v) output_index[coding[v]] = v;
-  const Connectivity faces = collect_faces(state, output_index);
+  const Connectivity faces = collect_faces(state, inverse(coding));
   FaceOrder order = match_faces(faces, input);
   IntervalEncoder coder;
   Status status = code_face_order(coder, FaceOrderContext(faces), order);
@@ -296,6 +300,10 @@ const DracoPlan& ReferencePlan::draco() {
   return *draco_;
 }
 
+std::vector<uint32_t> ReferencePlan::input_vertices() {
+  return inverse(number_vertices(connectivity_, draco().encoding));
+}
+
 Status encode_reference(const Connectivity& connectivity, std::span<const int32_t> grid,
                         const ReferenceOptions& options, std::vector<uint8_t>& bytes,
                         ReferenceMesh& decoded, std::vector<uint32_t>& input_index) {
@@ -320,8 +328,7 @@ Status encode_reference(ReferencePlan& reusable, std::span<const int32_t> grid,
   if (!survives(connectivity, grid, coding, options, decoded)) {
     return Status::invalid("reference mesh: it does not survive its coding");
   }
-  input_index.resize(coding.size());
-  for (uint32_t v = 0; v < coding.size(); ++v) input_index[coding[v]] = v;
+  input_index = inverse(coding);
   return {};
 }
 

@@ -28,6 +28,8 @@ class ReferencePlan {
   const Connectivity& connectivity() const { return connectivity_; }
   /// Computed when first asked for; the connectivity must be a valid one.
   const DracoPlan& draco();
+  /// Input vertex of each coding vertex; these are the vertices of a file that drops their order.
+  std::vector<uint32_t> input_vertices();
 
  private:
   const Connectivity& connectivity_;
@@ -37,8 +39,8 @@ class ReferencePlan {
 /// Encodes any connectivity whose corners are below its vertex count (1 .. 2^30 vertices, at most
 /// 2^30 corners), with grid positions 0 .. kGridMax, [vertex][xyz] in input order. Every face comes
 /// back, unless `face_order` is set up to the order of faces and the first corner of each.
-/// `decoded` is what the decoder makes of `bytes`, compared with the input; `input_index` is the
-/// input vertex of each coding vertex.
+/// `decoded` is what the decoder makes of `bytes`, compared with the input; `input_index` is
+/// `plan.input_vertices()`.
 Status encode_reference(ReferencePlan& plan, std::span<const int32_t> grid,
                         const ReferenceOptions& options, std::vector<uint8_t>& bytes,
                         ReferenceMesh& decoded, std::vector<uint32_t>& input_index);

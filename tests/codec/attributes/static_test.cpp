@@ -226,3 +226,50 @@ TEST_CASE("places in a list cost little where they follow the faces", "[attribut
   for (int32_t& p : places) p = order[static_cast<size_t>(p)];
   CHECK(cost(places) > order.size());  // a shuffled list is no less than its order
 }
+
+TEST_CASE("attributes follow what they belong to where the order is dropped", "[attributes]") {
+  // Each value tells which vertex, or vertices, it belongs to by their positions.
+  const auto mark = [](const Shot& shot, uint32_t t, uint32_t v) {
+    int32_t out = 0;
+    for (size_t a = 0; a < 3; ++a)
+      out = (out * 31 + static_cast<int32_t>(1e4f * shot.frame(t)[3 * v + a])) % 1000003;
+    return out;
+  };
+  const auto marks = [&](const Shot& shot) {
+    std::vector<int32_t> vertices, moving, corners, faces;
+    for (uint32_t t = 0; t < shot.frame_count; ++t) {
+      for (uint32_t v = 0; v < shot.connectivity.vertex_count; ++v)
+        moving.push_back(mark(shot, t, v));
+    }
+    for (uint32_t v = 0; v < shot.connectivity.vertex_count; ++v)
+      vertices.push_back(mark(shot, 0, v));
+    for (size_t c = 0; c < shot.connectivity.corners.size(); ++c) {
+      corners.push_back(mark(shot, 0, shot.connectivity.corners[c]));
+      if (c % 3 == 0) faces.push_back(0);
+      faces.back() += corners.back();
+    }
+    std::vector<Attribute> out = {
+        make("vertices", Domain::kVertex, ValueType::kI32, 1, vertices),
+        make("corners", Domain::kCorner, ValueType::kI32, 1, corners),
+        make("faces", Domain::kFace, ValueType::kI32, 1, faces),
+        make("moving", Domain::kVertex, ValueType::kI32, 1, moving),
+    };
+    out.back().animated = true;
+    return out;
+  };
+  Shape shape = torus(9, 7);
+  shape.add_vertex(5, 5, 5);  // without a face
+  Shot shot = animate(shape, 3);
+  shot.attributes = marks(shot);
+  EncodeOptions options = quick_options();
+  options.target = Target::kLossless;
+  options.reorder = true;
+  const Shot decoded = decode_or_fail(encode_or_fail(sequence_of({shot}), options).bytes).shots[0];
+  CHECK(decoded.positions != shot.positions);
+  const std::vector<Attribute> expected = marks(decoded);
+  REQUIRE(decoded.attributes.size() == expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    INFO(expected[i].name);
+    CHECK(decoded.attributes[i].values == expected[i].values);
+  }
+}
