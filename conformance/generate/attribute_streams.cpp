@@ -1,4 +1,5 @@
 // Streams of class *core* with attributes, resources and bounds.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -61,6 +62,60 @@ Shot with_texture() {
   return shot;
 }
 
+/// A body of two halves: texture coordinates in charts that are turned over, but for some noise,
+/// colours and numbers of faces that are the same on both sides.
+Shot with_halves() {
+  constexpr uint32_t kHalf = 6, kRows = 7, kColumns = 2 * kHalf + 1;
+  Shot shot = animate(butterfly(kHalf, kRows), 2);
+  std::vector<float> uv;
+  std::vector<uint8_t> colours;
+  const auto across = [](uint32_t v) {
+    return std::abs(static_cast<int>(v % kColumns) - static_cast<int>(kHalf));
+  };
+  const auto along = [](uint32_t v) { return static_cast<int>(v / kColumns); };
+  for (size_t c = 0; c < shot.connectivity.corners.size(); ++c) {
+    const uint32_t v = shot.connectivity.corners[c];
+    const bool left = c / 6 % (kColumns - 1) < kHalf;  // by the face: the middle is a seam
+    const double x = across(v), y = along(v);
+    const double u = 0.05 * x + 0.01 * std::sin(x * y), w = 0.1 * y + 0.02 * std::cos(3 * x + y);
+    uv.push_back(static_cast<float>(left ? u : 0.9 - u + 0.0003 * (v % 3)));
+    uv.push_back(static_cast<float>(w));
+  }
+  for (uint32_t v = 0; v < shot.connectivity.vertex_count; ++v) {
+    for (int k = 0; k < 3; ++k)
+      colours.push_back(static_cast<uint8_t>(37 * across(v) * (k + 1) + 101 * along(v)));
+  }
+  Attribute a = make("vt", Domain::kCorner, ValueType::kBinary32, 2, uv);
+  a.semantic = Semantic::kTextureCoordinate;
+  a.max_error = {1.0 / 4096, 1.0 / 4096};
+  shot.attributes.push_back(a);
+  shot.attributes.push_back(make("rgb", Domain::kVertex, ValueType::kU8, 3, colours));
+  std::vector<int32_t> faces;
+  for (size_t c = 0; c < shot.connectivity.corners.size(); c += 3) {
+    const uint32_t* t = &shot.connectivity.corners[c];
+    faces.push_back(1000 * across(t[0]) * across(t[1]) + 7 * across(t[2]) * along(t[1]));
+  }
+  shot.attributes.push_back(make("face", Domain::kFace, ValueType::kI32, 1, faces));
+  return shot;
+}
+
+/// Moving whole numbers at vertices, which often reach both ends of low .. high.
+template <class T>
+void add_whole(Shot& shot, const std::string& name, ValueType type, double low, double high,
+               double max_error) {
+  std::vector<T> values;
+  for (uint32_t t = 0; t < shot.frame_count; ++t) {
+    for (uint32_t v = 0; v < shot.connectivity.vertex_count; ++v) {
+      const double wave = std::sin(0.9 * t + 0.4 * v) * 0.7 + 0.5;
+      values.push_back(static_cast<T>(low + (high - low) * std::clamp(wave, 0.0, 1.0)));
+    }
+  }
+  Attribute a = make(name, Domain::kVertex, type, 1, values);
+  a.animated = true;
+  if (max_error > 0) a.max_error = {max_error};
+  shot.attributes.push_back(a);
+}
+
 /// A value that moves for every domain, exact and not.
 Shot with_motion(const Shape& shape, uint32_t frames) {
   Shot shot = animate(shape, frames);
@@ -87,6 +142,10 @@ Shot with_motion(const Shape& shape, uint32_t frames) {
   c.semantic = Semantic::kColour;
   c.animated = true;
   shot.attributes.push_back(c);
+  add_whole<uint16_t>(shot, "u16", ValueType::kU16, 0, 65535, 30);
+  add_whole<uint16_t>(shot, "n16", ValueType::kU16Normalised, 0, 65535, 0.002);
+  add_whole<int32_t>(shot, "i32", ValueType::kI32, -90000, 70000, 300);
+  add_whole<int32_t>(shot, "i32 exact", ValueType::kI32, -(1 << 24), 1 << 24, 0);
   return shot;
 }
 
@@ -136,6 +195,9 @@ std::vector<Stream> attribute_streams() {
   out.push_back(make_stream("attributes_texture",
                             "Texture coordinates in two charts to 12 bits, three materials.",
                             sequence_of({with_texture()}), Target::kKg));
+  out.push_back(make_stream("attributes_mirrored",
+                            "Attributes of a body whose halves mirror each other.",
+                            sequence_of({with_halves()}), Target::kKg));
   Shot creased = animate(torus(8, 6), 3);
   add_normals(creased);
   out.push_back(make_stream("attributes_normals", "Normals computed from positions; bounds.",

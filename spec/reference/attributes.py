@@ -11,6 +11,7 @@ from .errors import require
 from .fast import Walk
 from .guesses import Guess, GuessMixture
 from .half_edges import NONE
+from .mirror import MirrorGuess, decode_plane
 from .points import FeatureWeights
 from .sites import Corners, Sites, decode_sites
 
@@ -57,7 +58,7 @@ class Differences:
         return -value if negative else value
 
 
-FITTED, BY_SPREAD, SHIFTED, BASE, CONFORMAL, AFFINE, TIP, SAME, SIBLING, MIDDLE = range(10)
+FITTED, BY_SPREAD, SHIFTED, BASE, CONFORMAL, AFFINE, TIP, SAME, SIBLING, MIDDLE, MIRRORED, MIRROR_SAME = range(12)
 
 
 def guess_at(kind, place, scale):
@@ -80,9 +81,10 @@ class Unfolded:
 class Predictor:
     """Section 6."""
 
-    def __init__(self, sites, walk, tops, texture):
+    def __init__(self, sites, walk, tops, texture, plane):
         self.sites, self.walk, self.tops = sites, walk, tops
         self.texture = texture and len(tops) >= 2
+        self.mirror = MirrorGuess(sites, walk, len(tops), self.texture, plane)
         self.weights = [FeatureWeights() for _ in range(4)]
         self.error = [0.0] * len(sites.grid)
         self.sibling = {}
@@ -154,6 +156,7 @@ class Predictor:
             near = near + (self.error[t.a] + self.error[t.b])
         self.near = near / (2 * float(len(self.triangles))) if self.triangles else 0.0
         self.find_candidates()
+        self.mirror.start(site, self.walk.known[turn], self.values)
         w = self.weights[min(self.tips, 3)].solve()
         self.base, self.fitted, self.features, self.spread = [], [], [], []
         self.affine, self.conformal = affine, conformal
@@ -214,6 +217,12 @@ class Predictor:
         for values, sibling, missed in self.candidates:
             kind = 5 * (SIBLING if sibling else SAME) + (0 if k == 0 else 2 if missed else 1)
             out.append(guess_at(kind, float(values[k]), 0.3))
+        mirror = self.mirror
+        if mirror.same != NONE:
+            kind = 5 * MIRROR_SAME + (0 if k == 0 else 2 if mirror.missed else 1)
+            out.append(guess_at(kind, float(self.values[mirror.same][k]), 0.3))
+        if mirror.targets is not None:
+            add(MIRRORED, cut(mirror.targets[k]), mirror.scale(k))
         if not self.triangles:
             add(BASE, self.base[k], scale)
             add(MIDDLE, top / 2, top / 4 + 0.3)
@@ -243,11 +252,13 @@ class Predictor:
             self.weights[min(self.tips, 3)].observe(self.features[k], self.near, self.shift, value - self.base[k])
         for candidate in self.candidates:
             candidate[2] = candidate[2] or candidate[0][k] != value
+        self.mirror.learn(k, value)
         if k + 1 == len(self.tops):
             self.finish()
 
     def finish(self):
         site = self.site
+        self.mirror.finish(self.coded)
         self.values[site] = self.coded
         self.error[site] = f32(self.error_sum / float(len(self.tops)))
         self.last = site
@@ -264,9 +275,10 @@ class Predictor:
 
 def decode_values(decoder, sites, tops, texture):
     """Sections 6 and 7: the integers of every site."""
+    plane = decode_plane(decoder)
     walk = Walk(len(sites.grid), sites.triangles)
-    predictor = Predictor(sites, walk, tops, texture)
-    mixture = GuessMixture(50, 256)
+    predictor = Predictor(sites, walk, tops, texture, plane)
+    mixture = GuessMixture(60, 256)
     differences = [Differences() for _ in tops]
     for turn in range(len(walk.order)):
         predictor.start(turn)

@@ -84,6 +84,30 @@ Shape grid(uint32_t columns, uint32_t rows) {
   return s;
 }
 
+Shape butterfly(uint32_t half, uint32_t rows) {
+  Shape s{.name = "butterfly", .connectivity = {}, .positions = {}};
+  const uint32_t columns = 2 * half + 1;
+  for (uint32_t y = 0; y < rows; ++y) {
+    for (uint32_t c = 0; c < columns; ++c) {
+      const float side = c < half ? -1.0f : c > half ? 1.0f : 0.0f;
+      const double off = c < half ? half - c : c - half;
+      const float x = static_cast<float>(off) + 0.3f * sine(5 * off + 7 * y);
+      s.add_vertex(side * x, static_cast<float>(y) + 0.3f * cosine(3 * off + 11 * y),
+                   sine(off * y));
+      if (c + 1 == columns || y + 1 == rows) continue;
+      const uint32_t v = y * columns + c, above = v + columns;
+      if (c >= half) {
+        s.add_face({v, v + 1, above + 1});
+        s.add_face({v, above + 1, above});
+      } else {
+        s.add_face({v, v + 1, above});
+        s.add_face({v + 1, above + 1, above});
+      }
+    }
+  }
+  return s;
+}
+
 Shape torus(uint32_t around, uint32_t across) {
   Shape s{.name = "torus", .connectivity = {}, .positions = {}};
   for (uint32_t i = 0; i < around; ++i) {

@@ -20,9 +20,11 @@ struct Shape {
 };
 
 Shape tetrahedron();
-Shape strip(uint32_t triangles);                   ///< open, in the plane
-Shape doubled_strip(uint32_t vertices);            ///< every triangle twice
-Shape grid(uint32_t columns, uint32_t rows);       ///< open square of quadrilaterals, wavy
+Shape strip(uint32_t triangles);              ///< open, in the plane
+Shape doubled_strip(uint32_t vertices);       ///< every triangle twice
+Shape grid(uint32_t columns, uint32_t rows);  ///< open square of quadrilaterals, wavy
+/// Triangles, mirrored at x = 0: 2 half + 1 columns, vertex v of a row is mirrored by 2 half - v.
+Shape butterfly(uint32_t half, uint32_t rows);
 Shape torus(uint32_t around, uint32_t across);     ///< triangles, radii 3 and 1
 Shape hub(uint32_t spokes);                        ///< a closed fan around one vertex
 Shape fins(uint32_t count);                        ///< non-manifold: triangles at a common edge

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bitstream/attribute_headers.h"
@@ -46,15 +47,18 @@ Sites code_sites(Coder& coder, Domain domain, const ShotSurface& surface, Seam s
   return {std::move(mesh), std::move(wedges.of_corner)};
 }
 
-/// Codes the integers, [site][channel]: complete with encoders, filled in with decoders.
+/// Codes the integers, [site][channel]: complete with encoders, filled in with decoders. `plane`:
+/// what an encoder wants where they are predicted.
 template <class Coder>
 Status code_integers(Coder& coder, const AttributeHeader& h, const AttributeBody& body,
                      const ShotSurface& surface, const SiteMesh& sites,
-                     std::vector<uint32_t>& integers) {
+                     std::vector<uint32_t>& integers,
+                     const std::optional<MirrorPlane>& plane = std::nullopt) {
   std::vector<uint32_t> tops;
   for (const ChannelHeader& c : body.channels) tops.push_back(static_cast<uint32_t>(c.top));
   if (!is_category(h, body))
-    return code_values(coder, sites, tops, h.semantic == Semantic::kTextureCoordinate, integers);
+    return code_values(coder, sites, tops, h.semantic == Semantic::kTextureCoordinate, plane,
+                       integers);
   const FaceCorners corners(surface.connectivity);
   return CategorySyntax(corners, h.domain == Domain::kCorner, tops[0]).code(coder, integers);
 }

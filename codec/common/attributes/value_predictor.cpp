@@ -25,7 +25,9 @@ enum Kind : uint32_t {
   kTip,
   kSame,
   kSibling,
-  kMiddle
+  kMiddle,
+  kMirrored,
+  kMirrorSame
 };
 
 void add_guess(uint32_t kind, double place, double scale, GuessMixture& out) {
@@ -37,11 +39,13 @@ void add_guess(uint32_t kind, double place, double scale, GuessMixture& out) {
 }  // namespace
 
 ValuePredictor::ValuePredictor(const SiteMesh& sites, const MeshWalk& walk,
-                               std::vector<uint32_t> tops, bool texture)
+                               std::vector<uint32_t> tops, bool texture,
+                               const std::optional<MirrorPlane>& plane)
     : sites_(sites),
       walk_(walk),
       tops_(std::move(tops)),
       texture_(texture && tops_.size() >= 2),
+      mirror_(sites, walk, tops_.size(), texture_, plane),
       error_(sites.count),
       last_(kNone),
       channels_(tops_.size()),
@@ -177,6 +181,7 @@ void ValuePredictor::start(uint32_t turn, std::span<const uint32_t> values) {
   for (const Unfolded& t : triangles_) add(t);
   if (!triangles_.empty()) neighbour_error_ /= 2 * static_cast<double>(triangles_.size());
   find_candidates();
+  mirror_.start(turn, values);
   const FeatureWeights::Row w = weights_[std::min(tips_, 3u)].solve();
   for (size_t k = 0; k < channels_.size(); ++k) {
     Channel& c = channels_[k];
@@ -202,10 +207,23 @@ uint32_t ValuePredictor::reach(size_t channel) const {
   return 1 + static_cast<uint32_t>(std::min(scale(channel), 1000.0));
 }
 
+void ValuePredictor::guess_mirrored(size_t channel, GuessMixture& out) const {
+  if (mirror_.same() != kNone) {
+    const uint32_t so_far = channel == 0 ? 0 : mirror_.missed() ? 2 : 1;
+    add_guess(kMirrorSame * kSituations + so_far, value(mirror_.same(), channel), kMinScale, out);
+  }
+  if (!mirror_.has_triangle()) return;
+  const double place = std::clamp(mirror_.moved(channel), 0.0, static_cast<double>(tops_[channel]));
+  add_guess(kMirrored * kSituations + situation(), place, mirror_.scale(channel), out);
+}
+
+uint32_t ValuePredictor::situation() const {
+  return tips_ > 0 ? 1 + std::min(tips_, 3u) : (triangles_.empty() ? 0 : 1);
+}
+
 void ValuePredictor::guess(size_t channel, GuessMixture& out) const {
   out.clear();
-  const uint32_t situation = tips_ > 0 ? 1 + std::min(tips_, 3u) : (triangles_.empty() ? 0 : 1);
-  const auto kind = [&](Kind k) { return k * kSituations + situation; };
+  const auto kind = [&](Kind k) { return k * kSituations + situation(); };
   const double scale = this->scale(channel);
   const Channel& c = channels_[channel];
   for (const Candidate& near : candidates_) {
@@ -213,6 +231,7 @@ void ValuePredictor::guess(size_t channel, GuessMixture& out) const {
     add_guess((near.sibling ? kSibling : kSame) * kSituations + so_far, value(near.site, channel),
               kMinScale, out);
   }
+  guess_mirrored(channel, out);
   if (triangles_.empty()) {
     add_guess(kind(kBase), c.base, scale, out);
     add_guess(kind(kMiddle), tops_[channel] / 2.0, tops_[channel] / 4.0 + kMinScale, out);
@@ -249,6 +268,7 @@ void ValuePredictor::learn(size_t channel, uint32_t value) {
   }
   for (Candidate& near : candidates_)
     near.missed = near.missed || this->value(near.site, channel) != value;
+  mirror_.learn(channel, value);
   if (channel + 1 == channels_.size()) finish();
 }
 

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "codec/common/attributes/mirror_guess.h"
 #include "codec/common/attributes/site_mesh.h"
 #include "codec/common/base/fixed_list.h"
 #include "codec/common/mesh/mesh_walk.h"
@@ -23,12 +25,13 @@ class ValuePredictor {
  public:
   static constexpr uint32_t kMemory = 256;  ///< observations, see GuessMixture
   static constexpr uint32_t kSituations = 5;
-  static constexpr uint32_t kKindCount = 10 * kSituations;
+  static constexpr uint32_t kKindCount = 12 * kSituations;
 
   /// `sites` and `walk` must outlive the predictor. `tops`: largest integer of each channel.
-  /// `texture`: the first two channels are coordinates on a plane.
+  /// `texture`: the first two channels are coordinates on a plane. `plane`: one that the sites
+  /// mirror each other at.
   ValuePredictor(const SiteMesh& sites, const MeshWalk& walk, std::vector<uint32_t> tops,
-                 bool texture);
+                 bool texture, const std::optional<MirrorPlane>& plane);
 
   /// `values`: [site][channel], of which those coded before are read.
   void start(uint32_t turn, std::span<const uint32_t> values);
@@ -70,6 +73,8 @@ class ValuePredictor {
   double turning_of(const Unfolded& triangle) const;
   void add_candidate(uint32_t site, bool sibling);
   void find_candidates();
+  void guess_mirrored(size_t channel, GuessMixture& out) const;
+  uint32_t situation() const;  ///< what is known around the site
   void set_base(Channel& channel, size_t index) const;
   void finish();
 
@@ -77,6 +82,7 @@ class ValuePredictor {
   const MeshWalk& walk_;
   const std::vector<uint32_t> tops_;
   const bool texture_;
+  MirrorGuess mirror_;
   std::array<FeatureWeights, 4> weights_;
   std::vector<float> error_;       // mean of each site's
   std::vector<uint32_t> sibling_;  // of each vertex, the wedge coded last

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bitstream/status.h"
@@ -16,12 +17,13 @@ namespace reeb {
 inline constexpr uint32_t kMaxMixed = (1u << 20) - 1;
 
 /// Codes `values`, [site][channel], each 0 .. top of its channel: complete with encoders, filled in
-/// with decoders.
+/// with decoders. `plane`: what an encoder wants.
 template <class Coder>
 Status code_values(Coder& coder, const SiteMesh& sites, const std::vector<uint32_t>& tops,
-                   bool texture, std::vector<uint32_t>& values) {
+                   bool texture, std::optional<MirrorPlane> plane, std::vector<uint32_t>& values) {
+  code_plane(coder, plane);
   const MeshWalk walk = walk_mesh(sites.count, sites.triangles);
-  ValuePredictor predictor(sites, walk, tops, texture);
+  ValuePredictor predictor(sites, walk, tops, texture, plane);
   GuessMixture guesses(ValuePredictor::kKindCount, ValuePredictor::kMemory);
   std::vector<DifferenceModel> differences(tops.size());
   values.resize(sites.count * tops.size());

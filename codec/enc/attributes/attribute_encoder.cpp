@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "codec/common/attributes/attribute_syntax.h"
+#include "codec/enc/attributes/integer_encoder.h"
 #include "codec/enc/attributes/number_choice.h"
 #include "entropy/interval_coder.h"
 
@@ -80,7 +81,8 @@ Status encode_static_attribute(const Attribute& attribute, const ShotSurface& su
                        [&](uint32_t a, uint32_t b) { return differ(chosen, a, b); });
   }
   ChosenNumbers numbers = gather(chosen, sites);
-  if (Status s = code_integers(coder, out.header, out.body, surface, sites.mesh, numbers.integers);
+  if (Status s =
+          encode_integers(out.header, out.body, surface, sites.mesh, numbers.integers, coder);
       !s.ok())
     return s;
   if (attribute.type == ValueType::kBinary32) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codec/dec/attributes/computed_normals.h"
+#include "codec/enc/attributes/integer_encoder.h"
 #include "entropy/interval_coder.h"
 
 namespace reeb {
@@ -188,7 +189,7 @@ bool NormalChoice::code_still(const Sites& sites, IntervalEncoder& coder,
     channel.set_low(*low);
     channel.top = static_cast<uint64_t>(*high - *low);
     out.coded.body.channels = {channel, channel};
-    return code_integers(coder, out.coded.header, out.coded.body, surface_, sites.mesh, integers)
+    return encode_integers(out.coded.header, out.coded.body, surface_, sites.mesh, integers, coder)
         .ok();
   }
   return false;
