@@ -84,10 +84,14 @@ int fail(Console& console, const Status& status) {
 }
 
 int print(const std::string& text) {
-  const Status status = write_standard_output(text);
-  if (status.ok()) return kExitDone;
   Console console{ConsoleOptions()};
-  return fail(console, status);
+  return print(text, console);
+}
+
+int print(const std::string& text, Console& console) {
+  console.clear_bar();
+  const Status status = write_standard_output(text);
+  return status.ok() ? kExitDone : fail(console, status);
 }
 
 std::vector<std::vector<std::string>> split_sequences(const std::vector<std::string>& names,

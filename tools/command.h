@@ -44,6 +44,8 @@ int fail(Console& console, const Status& status);
 
 /// Writes to standard output and gives the exit code; a full device or a closed pipe is an error.
 int print(const std::string& text);
+/// The same where a bar may be shown, which goes first: both may be on one terminal.
+int print(const std::string& text, Console& console);
 
 /// The names of several sequences: a mesh before a point cache goes with it, from the left, as long
 /// as more than `least` sequences remain.

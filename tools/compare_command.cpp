@@ -273,7 +273,8 @@ int run(const Options& o) {
   if (const std::string more = excess(o, attributes); !more.empty())
     over += (over.empty() ? "" : "; ") + more;
   const Result result{a, b, comparison, attributes, numbers};
-  int exit_code = print(o.json ? json_text(o, result, over.empty()) : plain_text(o, result));
+  int exit_code =
+      print(o.json ? json_text(o, result, over.empty()) : plain_text(o, result), console);
   for (const Side* side : {&a, &b})
     exit_code = std::max(exit_code, finish_damaged(console, side->damage(), o.keep_going));
   if (over.empty() || exit_code != kExitDone) return exit_code;

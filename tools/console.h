@@ -34,10 +34,11 @@ class Console {
   /// A function that draws a bar for the done part in [0,1] of the work called `label`, where
   /// wanted.
   std::function<void(double)> bar(const std::string& label);
+  /// To be called before anything else writes to the terminal.
+  void clear_bar();
 
  private:
   void draw(const std::string& label, double done);
-  void clear_bar();
 
   ConsoleOptions options_;
   bool show_bar_;

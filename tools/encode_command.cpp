@@ -199,7 +199,7 @@ int report(const Options& o, const Sequence& sequence, const ReadReport& read,
             {"sections", Json::object()},
             {"notes", stats.notes}};
   for (const EncodeStats::Section& s : stats.sections) json["sections"][s.name] = s.bits / 8;
-  return print(dump(json));
+  return print(dump(json), console);
 }
 
 std::string wrong_usage(const Options& o) {

@@ -282,7 +282,7 @@ int run(const Options& o) {
     exit_code = std::max(exit_code, show(o, name, console, text, json));
   }
   if (o.json && !json.empty()) text << dump(o.inputs.size() == 1 ? json.front() : json);
-  return std::max(exit_code, print(text.str()));
+  return std::max(exit_code, print(text.str(), console));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <iomanip>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -131,8 +130,9 @@ int run(Options& o) {
   if (!status.ok()) return fail(console, status);
   const RankBy by = rank_by(o.by);
   const std::vector<SearchResult> results = search_archive(archive, signature, by, o.count);
-  std::cout << (o.json ? as_json(archive, results, by) : as_table(archive, results, by));
-  if (o.picture.empty()) return kExitDone;
+  const int exit_code =
+      print(o.json ? as_json(archive, results, by) : as_table(archive, results, by), console);
+  if (o.picture.empty() || exit_code != kExitDone) return exit_code;
   status = draw_results(o, archive, query, results, console);
   return status.ok() ? kExitDone : fail(console, status);
 }

@@ -92,7 +92,9 @@ TEST_CASE("output that does not arrive is an error in every command") {
       {"compare", files.cache, files.stream, "--json"},
       {"encode", files.cache, "-f", "-o", files / "n.reeb", "--json"},
       {"encode", files.cache, "-o", "-"},
-      {"decode", files.stream, "-o", "-"}};
+      {"decode", files.stream, "-o", "-"},
+      {"search", files / "a.reebi", files / "m.obj"}};
+  REQUIRE(run_reeb({"index", files / "m.obj", "-o", files / "a.reebi"}).exit_code == 0);
   for (const auto& command : commands) {
     INFO(command[0]);
     const CommandResult full = run_into(command, [] { return ::open("/dev/full", O_WRONLY); });
@@ -136,6 +138,15 @@ TEST_CASE("decode writes a point cache or one mesh to standard output") {
   const CommandResult many = run_reeb({"decode", files.stream, "-o", "-", "--format", "obj"});
   CHECK(many.exit_code == kExitUsage);
   CHECK_THAT(many.err, Contains("holds one frame, there are 4"));
+}
+
+TEST_CASE("a report is not written behind a bar") {
+  const Sample files;
+  const CommandResult result =
+      run_reeb({"compare", files.cache, files.stream, "--progress", "always"}, "/dev/null",
+               [] { ::dup2(STDERR_FILENO, STDOUT_FILENO); });
+  CHECK(result.exit_code == kExitDone);
+  CHECK_THAT(result.err, Contains("\r\x1b[KKG error"));
 }
 
 TEST_CASE("encode writes to standard output by any of its names") {
