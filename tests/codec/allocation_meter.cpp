@@ -21,12 +21,13 @@
 
 namespace {
 
-std::atomic<size_t> held{0};
-std::atomic<size_t> most{0};
+// Blocks that are there before anything is counted may be released: that is less than none.
+std::atomic<ptrdiff_t> held{0};
+std::atomic<ptrdiff_t> most{0};
 
 [[maybe_unused]] void add(size_t size) {
-  const size_t now = held += size;
-  size_t before = most;
+  const ptrdiff_t now = held += static_cast<ptrdiff_t>(size);
+  ptrdiff_t before = most;
   while (before < now && !most.compare_exchange_weak(before, now)) {
   }
 }
@@ -42,7 +43,8 @@ void note_block(const volatile void* block, size_t size) {
 }
 
 void note_release(const volatile void* block) {
-  if (block != nullptr) held -= __sanitizer_get_allocated_size(const_cast<const void*>(block));
+  if (block == nullptr) return;
+  held -= static_cast<ptrdiff_t>(__sanitizer_get_allocated_size(const_cast<const void*>(block)));
 }
 
 [[maybe_unused]] const int hooked =
@@ -82,13 +84,13 @@ int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
 void* realloc(void* block, size_t size) noexcept {
   const size_t before = block != nullptr ? malloc_usable_size(block) : 0;
   void* const out = note(__libc_realloc(block, size));
-  if (out != nullptr || size == 0) held -= before;
+  if (out != nullptr || size == 0) held -= static_cast<ptrdiff_t>(before);
   return out;
 }
 
 void free(void* block) noexcept {
   if (block == nullptr) return;
-  held -= malloc_usable_size(block);
+  held -= static_cast<ptrdiff_t>(malloc_usable_size(block));
   __libc_free(block);
 }
 }
@@ -105,8 +107,8 @@ namespace reeb::test {
 
 AllocationMeter::AllocationMeter() : before_(held) { most = before_; }
 size_t AllocationMeter::peak() const {
-  const size_t now = most;
-  return now > before_ ? now - before_ : 0;
+  const ptrdiff_t now = most;
+  return now > before_ ? static_cast<size_t>(now - before_) : 0;
 }
 
 }  // namespace reeb::test

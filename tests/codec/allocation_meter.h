@@ -14,7 +14,7 @@ class AllocationMeter {
   size_t peak() const;
 
  private:
-  size_t before_;
+  ptrdiff_t before_;
 };
 
 }  // namespace reeb::test
