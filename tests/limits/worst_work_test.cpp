@@ -79,7 +79,7 @@ Shape giant_faces(uint32_t count) {
   return s;
 }
 
-constexpr uint32_t kMany = 20'000;
+constexpr uint32_t kMany = kSlowness > 1 ? 2000 : 10'000;
 
 }  // namespace
 
