@@ -6,7 +6,7 @@ import pytest
 import reeb
 
 # Where the tests are copied away from the sources, REEB_STREAMS tells where the streams are.
-STREAMS = pathlib.Path(os.environ.get("REEB_STREAMS", pathlib.Path(__file__).resolve().parents[3] / "conformance/streams"))
+STREAMS = pathlib.Path(os.environ.get("REEB_STREAMS") or pathlib.Path(__file__).resolve().parents[3] / "conformance/streams")
 
 
 def stream(name, kind="core"):

@@ -3,7 +3,7 @@ import pathlib
 
 import pytest
 
-EXAMPLES = pathlib.Path(os.environ.get("REEB_EXAMPLES", pathlib.Path(__file__).resolve().parents[3] / "examples/python"))
+EXAMPLES = pathlib.Path(os.environ.get("REEB_EXAMPLES") or pathlib.Path(__file__).resolve().parents[3] / "examples/python")
 
 
 def test_the_example_runs_and_shows_two_pictures():

