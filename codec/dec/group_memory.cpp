@@ -23,7 +23,9 @@ constexpr uint64_t kBytesPerTime = 7800;   ///< of the basis, with its three axe
 constexpr uint64_t kMeshBytesPerVertex = 530, kMeshBytesPerFace = 50;
 /// Contexts of fields and of all else that is the same for any mesh.
 constexpr uint64_t kMeshModels = uint64_t{3} << 15;
-constexpr uint64_t kModels = uint64_t{3} << 17, kLosslessModels = uint64_t{5} << 17;
+constexpr uint64_t kModels = uint64_t{3} << 17;
+constexpr uint64_t kGridBytes = 3 * (uint64_t{8} << 16);  ///< of the levels of a frame's grid
+constexpr uint64_t kLosslessModels = (uint64_t{5} << 17) + kGridBytes;
 constexpr uint64_t kGrowing = 3;  ///< a list that grows has its old block beside the new one
 
 /// What a group of a profile takes for each row of its fields.
