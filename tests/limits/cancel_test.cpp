@@ -54,8 +54,8 @@ double run(const Bytes& file, const Call& call, double after, Status& status) {
   if (after >= 0) {
     while (!ended && seconds(clock) - start < after)
       std::this_thread::sleep_for(std::chrono::microseconds(200));
-    from = seconds(clock);
     decoder->cancel();
+    from = seconds(clock);  // not before: this thread may have to wait in between
   }
   while (!ended) std::this_thread::sleep_for(std::chrono::microseconds(200));
   ended = false;
