@@ -1,15 +1,13 @@
 #include "codec/common/attributes/face_corners.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace reeb {
 
 namespace {
 
-struct Edge {
-  uint64_t ends;  ///< lower vertex, higher vertex
-  uint32_t corner;
-};
+using Edge = std::pair<uint64_t, uint32_t>;  // lower and higher vertex, corner
 
 std::vector<Edge> sorted_edges(const FaceCorners& corners) {
   std::vector<Edge> edges;
@@ -18,9 +16,7 @@ std::vector<Edge> sorted_edges(const FaceCorners& corners) {
     const uint32_t a = corners.vertex[c], b = corners.vertex[corners.next(c)];
     if (a != b) edges.push_back({uint64_t{std::min(a, b)} << 32 | std::max(a, b), c});
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.corner < b.corner;
-  });
+  std::sort(edges.begin(), edges.end());
   return edges;
 }
 
@@ -36,8 +32,8 @@ FaceCorners::FaceCorners(const Connectivity& connectivity)
   const std::vector<Edge> edges = sorted_edges(*this);
   for (size_t i = 0; i < edges.size();) {
     size_t end = i + 1;
-    while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
-    const uint32_t a = edges[i].corner, b = edges[end - 1].corner;
+    while (end < edges.size() && edges[end].first == edges[i].first) ++end;
+    const uint32_t a = edges[i].second, b = edges[end - 1].second;
     if (end == i + 2 && vertex[a] != vertex[b]) {
       twin[a] = b;
       twin[b] = a;

@@ -25,10 +25,10 @@ MirrorSites::MirrorSites(const SiteMesh& sites, MirrorPlane plane) : sites_(site
   sort_triangles();
   for (const Cell& c : cells_) {
     std::array<int64_t, 3> point;
-    for (size_t i = 0; i < 3; ++i) point[i] = sites.grid[size_t{c.site} * 3 + i];
+    for (size_t i = 0; i < 3; ++i) point[i] = sites.grid[size_t{c.second} * 3 + i];
     point[plane.axis] = int64_t{plane.sum} - point[plane.axis];
     const uint32_t site = nearest(point);
-    if (site != kNone) partner_[anchor(c.site)] = anchor(site);
+    if (site != kNone) partner_[anchor(c.second)] = anchor(site);
   }
 }
 
@@ -60,9 +60,7 @@ void MirrorSites::sort_cells() {
     };
     cells_.push_back({key_of(cell(0), cell(1), cell(2)), s});
   }
-  std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
-    return std::tie(a.key, a.site) < std::tie(b.key, b.site);
-  });
+  std::sort(cells_.begin(), cells_.end());
 }
 
 uint32_t MirrorSites::nearest(const std::array<int64_t, 3>& point) const {
@@ -78,16 +76,16 @@ uint32_t MirrorSites::nearest(const std::array<int64_t, 3>& point) const {
     const int64_t x = cell[0] - 1 + row / 3, y = cell[1] - 1 + row % 3;
     const uint64_t first = key_of(x, y, cell[2] - 1);
     auto c = std::lower_bound(cells_.begin(), cells_.end(), first,
-                              [](const Cell& a, uint64_t key) { return a.key < key; });
-    for (uint32_t n = 0; n < kMaxOfRow && c != cells_.end() && c->key <= first + 2; ++n, ++c) {
+                              [](const Cell& a, uint64_t key) { return a.first < key; });
+    for (uint32_t n = 0; n < kMaxOfRow && c != cells_.end() && c->first <= first + 2; ++n, ++c) {
       int64_t distance = 0;
       for (size_t i = 0; i < 3; ++i) {
-        const int64_t d = sites_.grid[size_t{c->site} * 3 + i] - point[i];
+        const int64_t d = sites_.grid[size_t{c->second} * 3 + i] - point[i];
         distance += d * d;
       }
       if (distance >= least) continue;
       least = distance;
-      out = c->site;
+      out = c->second;
     }
   }
   return out;

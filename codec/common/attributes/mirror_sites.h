@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "codec/common/attributes/site_mesh.h"
@@ -53,10 +54,7 @@ class MirrorSites {
   size_t mirrored_triangles() const;
 
  private:
-  struct Cell {
-    uint64_t key;
-    uint32_t site;  ///< the lowest of an anchor
-  };
+  using Cell = std::pair<uint64_t, uint32_t>;  ///< key, and the lowest site of an anchor
   struct Triangle {
     std::array<uint32_t, 3> anchors;  ///< sorted
     uint32_t first;                   ///< corner

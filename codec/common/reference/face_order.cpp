@@ -1,5 +1,8 @@
 #include "codec/common/reference/face_order.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace reeb {
 
 FaceOrderContext::FaceOrderContext(const Connectivity& faces) : faces_(faces) {
@@ -9,33 +12,23 @@ FaceOrderContext::FaceOrderContext(const Connectivity& faces) : faces_(faces) {
 }
 
 std::vector<uint32_t> FaceOrderContext::faces_across() const {
-  struct Edge {
-    uint64_t ends;
-    uint32_t face;
-    size_t corner;
-  };
-  std::vector<Edge> edges;
+  std::vector<std::pair<uint64_t, uint32_t>> edges;  // lower and higher vertex, corner
   edges.reserve(faces_.corners.size());
+  std::vector<uint32_t> across(faces_.corners.size());
   for (uint32_t f = 0; f < count(); ++f) {
     const auto c = corners(f);
     for (size_t i = 0; i < c.size(); ++i) {
       const uint32_t next = c[i + 1 < c.size() ? i + 1 : 0];
       const uint64_t ends = uint64_t{std::min(c[i], next)} << 32 | std::max(c[i], next);
-      edges.push_back({ends, f, first_[f] + i});
+      edges.emplace_back(ends, static_cast<uint32_t>(first_[f] + i));
+      across[first_[f] + i] = f;
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.corner < b.corner;
-  });
-  std::vector<uint32_t> across(faces_.corners.size());
-  for (const Edge& e : edges) across[e.corner] = e.face;
+  std::sort(edges.begin(), edges.end());
   for (size_t i = 0; i < edges.size();) {
     size_t end = i + 1;
-    while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
-    if (end == i + 2) {
-      across[edges[i].corner] = edges[i + 1].face;
-      across[edges[i + 1].corner] = edges[i].face;
-    }
+    while (end < edges.size() && edges[end].first == edges[i].first) ++end;
+    if (end == i + 2) std::swap(across[edges[i].second], across[edges[i + 1].second]);
     i = end;
   }
   return across;
