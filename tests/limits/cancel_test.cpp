@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include "codec/common/fields/group_state.h"
@@ -82,18 +83,20 @@ void check_cancel(const Bytes& file, const char* name, const Call& call) {
 
 Shape large() { return torus(kAround, kAcross); }
 
+// Buffers are made before: a call that has not begun is not cancelled.
+std::shared_ptr<std::vector<float>> buffer(size_t frames) {
+  return std::make_shared<std::vector<float>>(frames * 3 * kAround * kAcross);
+}
+
 Call frame_with_normals() {
-  return [](Decoder& d) {
-    std::vector<float> xyz(size_t{3} * kAround * kAcross), normals(xyz.size());
-    return d.decode_frame(1, {.positions = xyz.data(), .normals = normals.data()});
+  return [xyz = buffer(1), normals = buffer(1)](Decoder& d) {
+    return d.decode_frame(1, {.positions = xyz->data(), .normals = normals->data()});
   };
 }
 
 Call all_frames(uint32_t count) {
-  return [count](Decoder& d) {
-    const size_t size = size_t{3} * kAround * kAcross;
-    std::vector<float> xyz(size * count);
-    return d.decode_frames(0, count, xyz.data(), size);
+  return [count, xyz = buffer(count)](Decoder& d) {
+    return d.decode_frames(0, count, xyz->data(), xyz->size() / count);
   };
 }
 
@@ -141,9 +144,8 @@ TEST_CASE("frames of the main profile are cancelled soon", "[cancel]") {
   const Bytes file = file_of(mesh, h, {.coefficients = coefficients, .basis = basis});
   check_cancel(file, "a frame and its normals", frame_with_normals());
   check_cancel(file, "all frames", all_frames(h.frame_count));
-  check_cancel(file, "between frames", [](Decoder& d) {
-    std::vector<float> xyz(size_t{3} * kAround * kAcross);
-    return d.decode_at(1.5, {.positions = xyz.data()});
+  check_cancel(file, "between frames", [xyz = buffer(1)](Decoder& d) {
+    return d.decode_at(1.5, {.positions = xyz->data()});
   });
 }
 
