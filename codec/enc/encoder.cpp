@@ -143,7 +143,7 @@ Status encode_lossy(const Sequence& sequence, const std::optional<Sequence>& bas
                     bool& missed) {
   if (base && options.target == Target::kMaxError)
     return encode_bounded(sequence, *base, options, out, stats, missed);
-  const Status status = SequenceEncoder(sequence, options).run(out, stats, missed);
+  Status status = SequenceEncoder(sequence, options).run(out, stats, missed);
   if (status.ok() && base) tell_outliers(sequence, *base, stats);
   return status;
 }
